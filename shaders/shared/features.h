@@ -1,0 +1,86 @@
+// Specialization constants: what a pipeline is built for. Effects (render/effects.h) sets them from
+// the scene; a driver drops every branch that a constant decides.
+//
+// X(constant_id, name, default)
+#ifndef TYNDALL_FEATURES_H
+#define TYNDALL_FEATURES_H
+
+#include "interop.h"
+
+TYNDALL_SHARED_BEGIN
+
+TYNDALL_CONSTANT uint GEOMETRY_NONE = 0u; // nothing to hit
+TYNDALL_CONSTANT uint GEOMETRY_BOX = 1u; // one axis-aligned box that bounds one medium in a vacuum
+TYNDALL_CONSTANT uint GEOMETRY_ELLIPSOID = 2u; // one ellipsoid, likewise
+TYNDALL_CONSTANT uint GEOMETRY_BVH = 3u; // anything
+
+TYNDALL_CONSTANT uint PRIMITIVE_TRIANGLES = 1u;
+TYNDALL_CONSTANT uint PRIMITIVE_PATCHES = 2u;
+TYNDALL_CONSTANT uint PRIMITIVE_SPHERES = 4u;
+TYNDALL_CONSTANT uint PRIMITIVE_DISKS = 8u;
+TYNDALL_CONSTANT uint PRIMITIVE_QUADRICS = 12u; // either
+TYNDALL_CONSTANT uint PRIMITIVE_INSTANCES = 16u;
+TYNDALL_CONSTANT uint PRIMITIVE_CUTS = 32u; // some sphere or disk is not whole
+TYNDALL_CONSTANT uint PRIMITIVE_BOXES = 64u;
+TYNDALL_CONSTANT uint PRIMITIVE_OTHERS = 78u; // all but triangles and instances
+TYNDALL_CONSTANT uint PRIMITIVE_TREES = 128u; // some hierarchy has inner nodes
+
+TYNDALL_CONSTANT uint LIGHTS_DISTANT = 1u;
+TYNDALL_CONSTANT uint LIGHTS_POINT = 2u;
+TYNDALL_CONSTANT uint LIGHTS_SPOT = 4u;
+TYNDALL_CONSTANT uint LIGHTS_AREA = 8u;
+
+// By the kind of a medium's density (volume_records.h).
+TYNDALL_CONSTANT uint DENSITY_BIT_GRID = 2u;
+TYNDALL_CONSTANT uint DENSITY_BIT_PLANE = 4u;
+TYNDALL_CONSTANT uint DENSITY_BIT_SPHERE = 8u;
+TYNDALL_CONSTANT uint DENSITY_BITS_TRACKED = 10u; // flights by tracking
+
+TYNDALL_CONSTANT uint FILTER_BOX = 0u;
+TYNDALL_CONSTANT uint FILTER_TRIANGLE = 1u;
+TYNDALL_CONSTANT uint FILTER_TABLE = 2u;
+
+TYNDALL_SHARED_END
+
+#define TYNDALL_FEATURES(X)                                                                        \
+    X(0, workgroup_size, 64)    /* invocations per workgroup */                                    \
+    X(1, storage_fallback, 0)   /* bit n: texel buffer n is too large, read its storage twin */    \
+    X(2, geometry, 3)           /* GEOMETRY_* */                                                   \
+    X(3, primitives, 255)       /* PRIMITIVE_* bits that occur */                                  \
+    X(4, lights, 15)            /* LIGHTS_* bits that light sampling has to deal with */           \
+    X(5, filter_kind, 2)        /* FILTER_* */                                                     \
+    X(6, has_media, 1)          /* any medium at all */                                            \
+    X(7, has_scattering, 1)     /* some medium scatters */                                         \
+    X(8, has_emission, 1)       /* some medium emits */                                            \
+    X(9, is_anisotropic, 1)     /* some phase function has g != 0 */                               \
+    X(10, is_chromatic, 1)      /* some medium differs between channels */                         \
+    X(11, is_grey, 0)           /* nothing at all differs between channels */                      \
+    X(12, has_interfaces, 1)    /* some surface is a mere boundary between media */                \
+    X(13, has_surfaces, 1)      /* some surface scatters or emits */                               \
+    X(14, has_emitters, 1)      /* some surface emits */                                           \
+    X(15, has_shading_normals, 1) /* some mesh has vertex normals */                               \
+    X(16, has_environment, 1)   /* light arrives from infinity in all directions */                \
+    X(17, has_lens, 1)          /* the camera has an aperture */                                   \
+    X(18, has_clamp, 1)         /* radiance is limited to maxcomponentvalue */                     \
+    X(19, is_orthographic, 1)   /* kind of camera */                                               \
+    X(20, emitters, 15)         /* PRIMITIVE_* bits that occur among what emits */                 \
+    X(21, densities, 15)        /* DENSITY_BIT_* bits: how the density of media varies */          \
+    X(22, has_rgb_grids, 1)     /* some grid has coefficients of its own by channel */             \
+    X(23, has_temperature, 1)   /* some grid emits as a black body */                              \
+    X(24, voxels_are_half, 0)   /* voxels are 16-bit floats */
+
+#ifdef __cplusplus
+namespace tyndall::shared {
+#define TYNDALL_FEATURE_MEMBER(id, name, value) std::uint32_t name = value;
+struct Features {
+    TYNDALL_FEATURES(TYNDALL_FEATURE_MEMBER)
+};
+#undef TYNDALL_FEATURE_MEMBER
+} // namespace tyndall::shared
+#else
+#define TYNDALL_FEATURE_CONSTANT(id, name, value) layout(constant_id = id) const uint name = value;
+TYNDALL_FEATURES(TYNDALL_FEATURE_CONSTANT)
+#undef TYNDALL_FEATURE_CONSTANT
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+// The definition of Tyndall's random numbers, shared by the device and the reference renderer, so
+// that with the same seed both trace the same paths.
+//
+// A random number is a pure function of (seed, pixel, sample, event, block, word). Nothing is
+// stored; any path can be replayed; no result depends on how the work was scheduled.
+//
+// An event is one segment of a path together with what happens at its end (a collision, a surface,
+// an interface, an escape). Event 0 is the camera; the first segment is event 1. Each event has two
+// blocks of four words:
+//
+//   event 0   BLOCK_PATH   0, 1: position in the pixel filter   2, 3: position on the lens
+//             BLOCK_LIGHT  0: hero channel (chromatic media only)
+//   event n   BLOCK_PATH   0: free flight (full 32 bits)        1, 2: direction (phase or BSDF)
+//                          3: Russian roulette
+//             BLOCK_LIGHT  0: choice of light                   1, 2: position on the light
+//                          3: reflection or transmission
+//
+// In a medium that is tracked (voxels, spherical atmosphere) each tentative collision is an event of its own:
+// BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A real one is scattered in the
+// next event, whose word 0 is not used.
+//
+// Step i of a shadow ray through such media, counted over all tentative collisions of the ray, uses block
+// BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
+#ifndef TYNDALL_RANDOM_H
+#define TYNDALL_RANDOM_H
+
+#include "interop.h"
+
+TYNDALL_SHARED_BEGIN
+
+TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
+TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;
+TYNDALL_CONSTANT uint BLOCK_SHADOW = 2u;
+
+// Seven rounds is the fewest that pass BigCrush with no failure (Salmon et al. 2011, "Parallel
+// Random Numbers: As Easy as 1, 2, 3", table 2); the known answers of the paper are for ten.
+TYNDALL_CONSTANT int PHILOX_ROUNDS = 7;
+
+/// Philox4x32: four random words from a 128-bit counter and a 64-bit key (Salmon et al. 2011).
+TYNDALL_SHARED_INLINE uvec4 philox(uvec4 counter, uvec2 key, int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+        uint high0, low0, high1, low1;
+        umulExtended(0xD2511F53u, counter.x, high0, low0);
+        umulExtended(0xCD9E8D57u, counter.z, high1, low1);
+        counter = uvec4(high1 ^ counter.y ^ key.x, low1, high0 ^ counter.w ^ key.y, low0);
+        key = uvec2(key.x + 0x9E3779B9u, key.y + 0xBB67AE85u);
+    }
+    return counter;
+}
+
+/// The four random words of one block of one event of one path.
+TYNDALL_SHARED_INLINE uvec4 random_block(uvec2 seed, uint pixel, uint path_sample, uint event,
+                                         uint block) {
+    return philox(uvec4(event, block, path_sample, pixel), seed, PHILOX_ROUNDS);
+}
+
+/// A word as a number in [0, 1): its upper 24 bits, exact in float32.
+TYNDALL_SHARED_INLINE float unit_float(uint word) {
+    return float(word >> 8) * (1.0f / 16777216.0f);
+}
+
+TYNDALL_SHARED_END
+
+#endif

@@ -1,0 +1,290 @@
+// Every record that crosses between host and device, defined once for both compilers.
+//
+// Scene records are whole texels (16 bytes each, rgba32ui): three floats and a word, or four words.
+// The device reads them through the load functions of wavefront/scene.glsl. All positions are in
+// render space: the world moved so that the camera is at the origin, which is where float32 is finest.
+// An index or offset of NONE means "none". Medium indices are those of Scene::media; VACUUM is none.
+#ifndef TYNDALL_RECORDS_H
+#define TYNDALL_RECORDS_H
+
+#include "interop.h"
+
+TYNDALL_SHARED_BEGIN
+
+TYNDALL_CONSTANT uint NONE = 0xFFFFFFFFu;
+TYNDALL_CONSTANT uint COLLISION = 0xFFFFFFFEu; // in place of a primitive: the segment ended in a medium
+TYNDALL_CONSTANT uint VACUUM = 0xFFFFu;
+
+// Primitive kinds, in the upper bits of PrimitiveRecord::kind_and_shape.
+TYNDALL_CONSTANT uint KIND_SHIFT = 29u;
+TYNDALL_CONSTANT uint KIND_TRIANGLE = 0u;
+TYNDALL_CONSTANT uint KIND_PATCH = 1u;
+TYNDALL_CONSTANT uint KIND_SPHERE = 2u;
+TYNDALL_CONSTANT uint KIND_DISK = 3u;
+TYNDALL_CONSTANT uint KIND_INSTANCE = 4u;
+TYNDALL_CONSTANT uint KIND_BOX = 5u;
+TYNDALL_CONSTANT uint SHAPE_MASK = 0x1FFFFFFFu;
+
+// ShapeRecord::flags
+TYNDALL_CONSTANT uint SHAPE_INTERFACE = 1u; // no surface: only a boundary between media
+TYNDALL_CONSTANT uint SHAPE_TRANSITION = 2u; // crossing it changes the medium
+TYNDALL_CONSTANT uint SHAPE_EMITS = 4u;
+TYNDALL_CONSTANT uint SHAPE_TWO_SIDED = 8u; // emits on both sides
+
+// LightRecord::kind
+TYNDALL_CONSTANT uint LIGHT_DISTANT = 0u;
+TYNDALL_CONSTANT uint LIGHT_POINT = 1u;
+TYNDALL_CONSTANT uint LIGHT_SPOT = 2u;
+TYNDALL_CONSTANT uint LIGHT_AREA = 3u;
+TYNDALL_CONSTANT uint LIGHT_AREA_TWO_SIDED = 4u;
+
+// Children of a NodeRecord: inner nodes by index; leaves as LEAF | (count - 1) << 24 | first primitive.
+TYNDALL_CONSTANT uint LEAF = 0x80000000u;
+TYNDALL_CONSTANT uint LEAF_COUNT_SHIFT = 24u;
+TYNDALL_CONSTANT uint LEAF_COUNT_MAX = 128u;
+TYNDALL_CONSTANT uint LEAF_FIRST_MASK = 0x00FFFFFFu;
+TYNDALL_CONSTANT uint BVH_DEPTH_MAX = 32u; // of one level; instances add a second level
+
+/// The camera as affine maps of the film point (x, y), in pixels, y down.
+/// perspective:  direction = direction_0 + x direction_x + y direction_y (camera z of 1); origin_0
+/// orthographic: origin = origin_0 + x direction_x + y direction_y; direction_0
+/// A point (u, v) of the unit disk moves the origin by u lens_u + v lens_v and the direction by
+/// -(u lens_u + v lens_v) * inverse_focal_distance.
+struct CameraRecord {
+    vec3 origin_0;
+    uint medium; ///< That the camera is in.
+    vec3 direction_0;
+    float inverse_focal_distance;
+    vec3 direction_x;
+    float clamp; ///< Largest component of a path's radiance (maxcomponentvalue).
+    vec3 direction_y;
+    float exposure; ///< Multiplies radiance (imaging ratio).
+    vec3 lens_u;
+    float filter_x_radius; ///< In pixels.
+    vec3 lens_v;
+    float filter_y_radius;
+    vec3 environment; ///< Radiance that arrives from infinity, the same in all directions.
+    uint filter_cells; ///< FILTER_TABLE: cells per axis.
+};
+TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
+
+/// A medium. Coefficients per scene unit.
+struct MediumRecord {
+    vec3 sigma_a;
+    float g;
+    vec3 sigma_s;
+    float pad0;
+    vec3 emission; ///< Le; the source term is sigma_a Le.
+    float pad1;
+    uint density_kind;   ///< DENSITY_* (volume_records.h): what scales sigma_a and sigma_s.
+    uint density_record; ///< Texel of the record of that kind.
+    uint pad2;
+    uint pad3;
+};
+TYNDALL_CONSTANT uint MEDIUM_TEXELS = 4u;
+
+/// What the surface of a shape is like.
+struct ShapeRecord {
+    uint flags;          ///< SHAPE_*
+    uint medium_inside;  ///< Against the normal.
+    uint medium_outside; ///< On the side of the normal.
+    uint pad0;
+    vec3 reflectance; ///< Of a diffuse surface.
+    float pad1;
+};
+TYNDALL_CONSTANT uint SHAPE_TEXELS = 2u;
+
+/// One primitive, in the order of the leaves of the hierarchy.
+/// triangle: a, b, c vertices; normal and offset of its plane (normal . p = offset)
+/// patch:    a, b, c, normal = p00, p10, p01, p11; offset = -1 flips cross(dp/du, dp/dv), else 1
+/// sphere, disk: extra = quadric index; offset = -1 or 1, likewise
+/// box: the axis-aligned box a ... b; offset = 1, or -1 if its normals point inward
+/// instance: extra = instance index
+struct PrimitiveRecord {
+    vec3 a;
+    uint kind_and_shape;
+    vec3 b;
+    uint light; ///< Index of the light that it is, or NONE.
+    vec3 c;
+    uint extra; ///< triangle, patch: index of its vertex normals (triples, quadruples), or NONE.
+    vec3 normal;
+    float offset;
+};
+TYNDALL_CONSTANT uint PRIMITIVE_TEXELS = 4u;
+
+/// Rows of a 3x4 matrix.
+struct AffineRecord {
+    vec4 row0;
+    vec4 row1;
+    vec4 row2;
+};
+TYNDALL_CONSTANT uint AFFINE_TEXELS = 3u;
+
+/// A sphere about the origin, or a disk in the plane z = z_min, in its object space.
+struct QuadricRecord {
+    AffineRecord object_from_world;
+    AffineRecord world_from_object;
+    float radius;
+    float inner_radius; ///< disk
+    float z_min;
+    float z_max;
+    float phi_max;
+    uint flags;        ///< QUADRIC_*
+    float determinant; ///< |det| of world_from_object: world volume per object volume.
+    float pad0;
+};
+TYNDALL_CONSTANT uint QUADRIC_TEXELS = 8u;
+TYNDALL_CONSTANT uint QUADRIC_FULL = 1u; // a sphere without cuts
+TYNDALL_CONSTANT uint QUADRIC_SIMILARITY = 2u; // world_from_object keeps shapes: rotation, translation, equal scale
+
+struct InstanceRecord {
+    AffineRecord object_from_world;
+    AffineRecord world_from_object;
+    uint triangle_root; ///< Roots of its hierarchies, as in PushConstants.
+    uint other_root;
+    uint medium_shift; ///< Added to the media of its shapes' boundaries: its own copies, which move with it.
+    uint pad0;
+};
+TYNDALL_CONSTANT uint INSTANCE_TEXELS = 7u;
+
+/// Inner node of a binary hierarchy: boxes and words of both children.
+struct NodeRecord {
+    vec3 lower0;
+    uint child0;
+    vec3 upper0;
+    uint child1;
+    vec3 lower1;
+    float pad0;
+    vec3 upper1;
+    float pad1;
+};
+TYNDALL_CONSTANT uint NODE_TEXELS = 4u;
+
+/// A light that light sampling chooses.
+struct LightRecord {
+    vec3 position; ///< point, spot; direction of travel for distant
+    uint kind;     ///< LIGHT_*
+    vec3 radiance; ///< area: radiance; point, spot: intensity; distant: irradiance
+    float probability; ///< That it is chosen.
+    vec3 axis;     ///< spot
+    uint primitive; ///< area: index into the primitives
+    float complement_start; ///< spot: 1 - cos of the angle up to which it is at full intensity,
+    float complement_width; ///< and of that from which there is none.
+    float pad0;
+    float pad1;
+};
+TYNDALL_CONSTANT uint LIGHT_TEXELS = 4u;
+
+/// A cell of the alias table by which a light is chosen (Vose 1991).
+struct AliasRecord {
+    float threshold; ///< Keep the cell's own index if the fraction of the draw is below, else take ...
+    uint alias;      ///< ... this one.
+    uint pad0;
+    uint pad1;
+};
+
+/// A medium's convex boundary for GEOMETRY_BOX and GEOMETRY_ELLIPSOID: the box is lower..upper; the
+/// ellipsoid is the unit sphere of unit_from_world.
+struct RegionRecord {
+    AffineRecord unit_from_world;
+    vec3 lower;
+    uint medium;
+    vec3 upper;
+    float pad0;
+};
+TYNDALL_CONSTANT uint REGION_TEXELS = 5u;
+
+/// Where each table starts in the scene buffer (texel offsets), and what a dispatch works on.
+struct PushConstants {
+    uvec2 seed;
+    uint slot_count;   ///< Paths in flight.
+    uint run_length;   ///< Most events per path and dispatch.
+    uint width;        ///< Of the rendered bounds.
+    uint pixel_count;  ///< Of the rendered bounds.
+    uint x0;           ///< Of the rendered bounds in the picture.
+    uint y0;
+    uint full_width;   ///< Of the picture.
+    uint max_depth;
+    uint first_sample; ///< Samples rendered: first_sample <= sample < end_sample
+    uint end_sample;
+    uint first_batch;  ///< Batch of ticket 0.
+    uint batch_count;  ///< Batches of this epoch: tickets 0 ... batch_count * pixel_count - 1.
+    uint window;       ///< Batches that may be in flight at once.
+    uint filter_table;
+    uint media;
+    uint shapes;
+    uint primitives;
+    uint nodes;
+    uint vertex_normals;
+    uint quadrics;
+    uint instances;
+    uint lights;
+    uint alias_table;
+    uint light_count;
+    uint region;
+    uint triangle_root; ///< Child words of the roots of three hierarchies, or NONE: triangles,
+    uint other_root;    ///< patches, quadrics and boxes,
+    uint instance_root; ///< instances.
+    uint blackbody;     ///< Table of emission over log temperature (volume_records.h), or NONE.
+};
+
+TYNDALL_CONSTANT int BATCH_WINDOW_MAX = 64;
+
+// Health counters: what went wrong, by kind.
+TYNDALL_CONSTANT int HEALTH_NONFINITE = 0;
+TYNDALL_CONSTANT int HEALTH_NEGATIVE = 1;
+TYNDALL_CONSTANT int HEALTH_MAJORANT = 2; // extinction above its bound: the estimate is biased
+TYNDALL_CONSTANT int HEALTH_COUNT = 3;
+
+// Queues of path slots, by what waits in them. Queue q holds its slots from q * slot_count on.
+TYNDALL_CONSTANT uint QUEUE_VOLUME = 0u;    // collided in a medium
+TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a surface
+TYNDALL_CONSTANT uint QUEUE_INTERFACE = 2u; // stand at a boundary between media
+TYNDALL_CONSTANT uint QUEUE_SHADOW = 3u;    // have a shadow ray to trace
+TYNDALL_CONSTANT uint QUEUE_ENDED = 4u;     // have no path, or one that has ended
+TYNDALL_CONSTANT uint QUEUE_TRACK = 5u;     // fly through a medium on voxels, or a spherical atmosphere
+TYNDALL_CONSTANT uint QUEUE_COUNT = 6u;
+
+/// Arguments of vkCmdDispatchIndirect.
+struct DispatchSize {
+    uint x, y, z;
+};
+
+/// What the device tells itself and the host. Zeroed at the start of an epoch.
+struct Control {
+    DispatchSize queue_dispatch[QUEUE_COUNT];
+    DispatchSize fold_dispatch;
+    uint queue_size[QUEUE_COUNT];
+    uint next_ticket;    ///< Work item = ticket: batch ticket / pixel_count, pixel ticket % pixel_count.
+    uint ticket_limit;   ///< Tickets below may be worked on.
+    uint folded_batches; ///< Batches of this epoch that are in the film.
+    uint fold_count;     ///< Batches that the next fold adds.
+    uint finished[BATCH_WINDOW_MAX]; ///< Pixels finished of each batch in the window.
+    uint health[HEALTH_COUNT];
+};
+
+// Path state: groups of one texel, so that a stage touches only what it needs (a store costs as much as
+// ten loads on a CPU driver).
+TYNDALL_CONSTANT uint PATH_ORIGIN = 0u;     // origin xyz | medium (16 bits), status (4), hero (2)
+TYNDALL_CONSTANT uint PATH_DIRECTION = 1u;  // direction xyz | event
+TYNDALL_CONSTANT uint PATH_THROUGHPUT = 2u; // throughput rgb | depth
+TYNDALL_CONSTANT uint PATH_RADIANCE = 3u;   // radiance rgb | density of the last direction per steradian
+TYNDALL_CONSTANT uint PATH_SAMPLE = 4u;     // x | y << 16 in the picture, sample, end of batch, weight
+TYNDALL_CONSTANT uint PATH_SUM = 5u;        // sum over the batch: weight * radiance, weight
+TYNDALL_CONSTANT uint PATH_TICKET = 6u;     // ticket, pixel, slot of the batch in the window | unused
+TYNDALL_CONSTANT uint PATH_HIT = 7u;        // distance, primitive, instance | distance before the segment
+TYNDALL_CONSTANT uint PATH_SPECTRAL = 8u;   // ratios r rgb (chromatic media) | unused
+TYNDALL_CONSTANT uint PATH_SHADOW = 9u;     // 3: origin | medium; direction | distance; contribution | target
+TYNDALL_CONSTANT uint PATH_TRACK = 12u;     // how far tracking has come along the segment | unused
+TYNDALL_CONSTANT uint PATH_GROUPS = 13u;
+
+// Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight, and the sum of squared
+// residuals of batches (Welford), from which the variance of the mean follows.
+TYNDALL_CONSTANT uint FILM_SUM = 0u; // rgb, weight
+TYNDALL_CONSTANT uint FILM_COMPENSATION = 1u; // rgb, weight
+TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u; // rgb, unused
+TYNDALL_CONSTANT uint FILM_TEXELS = 3u;
+
+TYNDALL_SHARED_END
+
+#endif

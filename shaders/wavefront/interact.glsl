@@ -1,0 +1,106 @@
+// What stages share of the end of a segment: the way there, scattering, roulette, light sampling.
+#ifndef TYNDALL_INTERACT_GLSL
+#define TYNDALL_INTERACT_GLSL
+
+#include "lib/phase.glsl"
+#include "wavefront/light_sampling.glsl"
+#include "wavefront/path.glsl"
+#include "wavefront/region.glsl"
+#include "wavefront/volume.glsl"
+
+void enqueue(uint queue, uint slot) {
+    const uint at = atomicAdd(control.queue_size[queue], 1u);
+    queues[queue * push.slot_count + at] = slot;
+    if (at % workgroup_size == 0u) atomicAdd(control.queue_dispatch[queue].x, 1u);
+}
+
+/// The slot that this invocation works on; NONE if the queue has no more.
+uint dequeue(uint queue) {
+    const uint at = gl_GlobalInvocationID.x;
+    return at < control.queue_size[queue] ? queues[queue * push.slot_count + at] : NONE;
+}
+
+/// Medium on the side of a surface that a ray leaves to along `direction`.
+uint medium_beyond(ShapeRecord shape, SurfacePoint s, vec3 direction, uint medium) {
+    if (has_media == 0u || (shape.flags & SHAPE_TRANSITION) == 0u) return medium;
+    medium = dot(direction, s.normal) > 0.0 ? shape.medium_outside : shape.medium_inside;
+    return medium == VACUUM ? VACUUM : medium + s.medium_shift;
+}
+
+/// Takes the path to the end of its segment at distance t: emission on the way, then throughput. Tracking has
+/// done so already.
+void travel(inout Path p, Medium medium, float t, bool collided) {
+    if (is_tracked(medium)) return;
+    const float column = column_length(medium, p.origin, p.direction, t);
+    if (has_emission != 0u) p.radiance += segment_emission(medium, p.throughput, p.r, column);
+    pass_segment(medium, p.hero, column, collided, p.throughput, p.r);
+}
+
+/// The queue of paths that stand at the primitive; of those that escape if it is NONE.
+uint queue_of_surface(uint primitive) {
+    if (primitive == NONE) return QUEUE_ENDED;
+    if (has_interfaces == 0u) return QUEUE_SURFACE;
+    if (has_surfaces == 0u) return QUEUE_INTERFACE;
+    const uint flags = fetch_scene(push.shapes + shape_of(primitive) * SHAPE_TEXELS).x;
+    return (flags & SHAPE_INTERFACE) != 0u ? QUEUE_INTERFACE : QUEUE_SURFACE;
+}
+
+/// Counts a scattering event; false if the path has had its share, and ends.
+bool may_scatter(inout Path p) {
+    if (p.depth == max_depth) {
+        p.status = STATUS_ENDED;
+        return false;
+    }
+    ++p.depth;
+    return true;
+}
+
+/// Russian roulette on the throughput alone, late and with an even chance.
+void roulette(inout Path p, uint word) {
+    const float w = max(p.throughput.x, max(p.throughput.y, p.throughput.z));
+    if (w >= 1.0 / 16.0) return;
+    if (unit_float(word) < 0.5 || w <= 0.0)
+        p.status = STATUS_ENDED;
+    else
+        p.throughput *= 2.0;
+}
+
+/// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is in between.
+LightSample light_in_medium(Path p, Medium medium) {
+    LightSample light = sample_light(p.origin, draw(p, BLOCK_LIGHT));
+    const float pdf = evaluate_phase(medium.g, p.direction, light.direction);
+    const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
+    light.radiance *= p.throughput * (pdf * mis);
+    return light;
+}
+
+/// Scatters a path that collided at its origin. The phase function is sampled exactly: no weight.
+void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
+    const vec3 incoming = p.direction;
+    p.direction = sample_phase(medium.g, incoming, unit_float(words.y), unit_float(words.z));
+    if ((lights & LIGHTS_AREA) != 0u) p.pdf = evaluate_phase(medium.g, incoming, p.direction);
+    roulette(p, words.w);
+}
+
+bool is_black(vec3 c) { return max(c.x, max(c.y, c.z)) <= 0.0; }
+
+/// Leaves a shadow ray from `origin` to trace_shadow.
+void cast_shadow_ray(uint slot, vec3 origin, uint medium, LightSample light) {
+    if (is_black(light.radiance)) return;
+    store_path(PATH_SHADOW, slot, uvec4(floatBitsToUint(origin), medium));
+    store_path(PATH_SHADOW + 1u, slot, floatBitsToUint(vec4(light.direction, light.distance)));
+    store_path(PATH_SHADOW + 2u, slot, uvec4(floatBitsToUint(light.radiance), light.target));
+    enqueue(QUEUE_SHADOW, slot);
+}
+
+/// Distance since the last scattering, where crossing interfaces does not reset it.
+float distance_travelled(uint slot, float t) {
+    if (has_interfaces == 0u || has_emitters == 0u) return t;
+    return t + uintBitsToFloat(load_path(PATH_HIT, slot).w);
+}
+void set_distance_before(uint slot, float before) {
+    if (has_interfaces != 0u && has_emitters != 0u)
+        store_path(PATH_HIT, slot, uvec4(0u, 0u, 0u, floatBitsToUint(before)));
+}
+
+#endif

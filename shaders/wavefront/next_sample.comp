@@ -1,0 +1,39 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/interact.glsl"
+
+// Ends paths and begins the next: light from infinity for those that escape, the sum of the batch, then the
+// camera ray of the next sample. The last stage of a round: pending shadow rays have been traced.
+//
+//   ENDED queue -> ray, batches
+
+void main() {
+    const uint slot = dequeue(QUEUE_ENDED);
+    if (slot == NONE) return;
+    const CameraRecord camera = load_camera();
+    Path p;
+    load_ray(slot, p);
+    load_throughput(slot, p);
+    load_radiance(slot, p);
+    load_sample(slot, p);
+    load_batch_state(slot, p);
+    if (p.status == STATUS_RAY) { // it escapes
+        if (has_media != 0u && p.medium != VACUUM)
+            travel(p, load_medium(p.medium), INFINITY, false);
+        if (has_environment != 0u) p.radiance += p.throughput * camera.environment;
+        p.status = STATUS_ENDED;
+    }
+    if (p.status == STATUS_ENDED) finish_sample(p, camera);
+    report_health();
+    if (needs_work(p)) take_work(p);
+    if (p.status == STATUS_ENDED) {
+        begin_sample(p, camera);
+        store_direction(slot, p);
+        store_throughput(slot, p);
+        store_radiance(slot, p);
+        set_distance_before(slot, 0.0);
+    }
+    store_origin(slot, p);
+    store_sample(slot, p);
+    store_batch_state(slot, p);
+}

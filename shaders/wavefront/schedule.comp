@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/buffers.glsl"
+
+// One invocation, at the end of a round: empties the queues, and sees which batches are complete. Those are
+// folded into the film next (update_film), and as many new ones may be started.
+
+/// A dispatch of so many invocations; devices need not allow more than 65535 workgroups in one dimension.
+DispatchSize dispatch_size(uint invocations) {
+    const uint groups = (invocations + workgroup_size - 1u) / workgroup_size;
+    return DispatchSize(min(groups, 32768u), (groups + 32767u) / 32768u, 1u);
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x != 0u) return;
+    for (uint queue = 0u; queue < QUEUE_COUNT; ++queue) {
+        control.queue_size[queue] = 0u;
+        control.queue_dispatch[queue] = DispatchSize(0u, 1u, 1u);
+    }
+
+    uint folded = control.folded_batches + control.fold_count;
+    control.folded_batches = folded;
+    uint count = 0u;
+    while (folded + count < push.batch_count && count < push.window &&
+           control.finished[(folded + count) % push.window] == push.pixel_count) {
+        control.finished[(folded + count) % push.window] = 0u;
+        ++count;
+    }
+    control.fold_count = count;
+    control.fold_dispatch = dispatch_size(count == 0u ? 0u : push.pixel_count);
+    control.ticket_limit = push.pixel_count * min(push.batch_count, folded + count + push.window);
+}

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/interact.glsl"
+
+// Scatters paths that collided in a medium.   VOLUME queue -> ray, SHADOW | ENDED queue
+
+void main() {
+    const uint slot = dequeue(QUEUE_VOLUME);
+    if (slot == NONE) return;
+    Path p;
+    load_ray(slot, p);
+    load_throughput(slot, p);
+    load_radiance(slot, p);
+    load_sample(slot, p);
+    const float t = uintBitsToFloat(load_path(PATH_HIT, slot).x);
+    const Medium medium = load_medium(p.medium);
+    travel(p, medium, t, true);
+    p.origin += t * p.direction;
+    if (may_scatter(p)) {
+        if (lights != 0u)
+            cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
+        scatter_in_medium(p, medium, draw(p, BLOCK_PATH));
+    }
+    ++p.event;
+    if (p.status == STATUS_ENDED) enqueue(QUEUE_ENDED, slot);
+    store_origin(slot, p);
+    store_direction(slot, p);
+    store_throughput(slot, p);
+    if (has_emission != 0u || has_emitters != 0u) store_radiance(slot, p);
+    set_distance_before(slot, 0.0);
+}

@@ -1,0 +1,38 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/interact.glsl"
+
+// Finds where the segment of each path ends: at the nearest surface, or before it by a collision in the
+// medium (free flight).
+//
+//   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue
+
+void main() {
+    const uint slot = gl_GlobalInvocationID.x;
+    if (slot >= push.slot_count) return;
+    Path p;
+    load_ray(slot, p);
+    Hit hit = Hit(INFINITY, NONE, NONE);
+    uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK : QUEUE_ENDED; // ENDED: waits for work, or escapes
+    if (p.status == STATUS_RAY) {
+        hit = trace(p.origin, p.direction, INFINITY, false, NONE);
+        queue = queue_of_surface(hit.primitive);
+        if (has_media != 0u && p.medium != VACUUM && (has_scattering != 0u || densities != 0u)) {
+            load_sample(slot, p);
+            const Medium medium = load_medium(p.medium);
+            const float column =
+                flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
+            const float flight = distance_of_column(medium, p.origin, p.direction, column);
+            if (is_tracked(medium)) {
+                queue = QUEUE_TRACK;
+            } else if (flight < hit.t) {
+                hit = Hit(flight, COLLISION, NONE);
+                queue = QUEUE_VOLUME;
+            }
+        }
+        const float before = distance_travelled(slot, 0.0);
+        store_path(PATH_HIT, slot,
+                   uvec4(floatBitsToUint(hit.t), hit.primitive, hit.instance, floatBitsToUint(before)));
+    }
+    enqueue(queue, slot);
+}

@@ -1,0 +1,50 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/interact.glsl"
+
+// Traces shadow rays: what reaches a path from the light it chose.   SHADOW queue -> radiance
+
+/// Transmittance along a part of the ray that no surface interrupts.
+vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p, inout uint step) {
+    const Medium medium = load_medium(index);
+    if (is_tracked(medium)) return track_transmittance(medium, origin, direction, t, p, step);
+    return transmittance(medium, column_length(medium, origin, direction, t));
+}
+
+/// Transmittance to the light, through any number of interfaces; 0 behind a surface.
+vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint target, Path p) {
+    vec3 result = vec3(1);
+    uint step = 0u;
+    for (;;) {
+        const bool any = has_interfaces == 0u;
+        const Hit hit = trace(origin, direction, distance, any, target);
+        const bool is_free = hit.primitive == NONE;
+        const ShapeRecord shape = load_shape(is_free ? 0u : shape_of(hit.primitive));
+        if (!is_free && (has_interfaces == 0u || (shape.flags & SHAPE_INTERFACE) == 0u)) return vec3(0);
+        if (has_media != 0u && medium != VACUUM)
+            result *= medium_transmittance(medium, origin, direction, is_free ? distance : hit.t, p, step);
+        if (is_free || is_black(result)) return result;
+        const SurfacePoint s = surface_point(origin, direction, hit);
+        medium = medium_beyond(shape, s, direction, medium);
+        origin = leave_surface(s, direction);
+        distance -= hit.t;
+    }
+}
+
+void main() {
+    const uint slot = dequeue(QUEUE_SHADOW);
+    if (slot == NONE) return;
+    const uvec4 a = load_path(PATH_SHADOW, slot);
+    const uvec4 b = load_path(PATH_SHADOW + 1u, slot);
+    const uvec4 c = load_path(PATH_SHADOW + 2u, slot);
+    Path p;
+    load_radiance(slot, p);
+    if (densities != 0u) {
+        load_ray(slot, p);
+        load_sample(slot, p);
+        --p.event; // the one that cast the shadow ray
+    }
+    const vec3 seen = visibility(floats(a), floats(b), uintBitsToFloat(b.w), a.w, c.w, p);
+    p.radiance += colour(floats(c)) * seen;
+    store_radiance(slot, p);
+}

@@ -1,0 +1,63 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "wavefront/interact.glsl"
+
+// Flies paths through media on voxels and spherical atmospheres: delta tracking against local majorants. Absorption is a
+// weight at null collisions, emission is collected at every tentative one.
+//
+//   TRACK queue -> VOLUME | SURFACE | INTERFACE | ENDED queue, or tracking goes on in the next round
+
+/// Weight of a tentative collision that was taken for real or null, over the density of that choice, and the
+/// spectral ratios after it (lib/medium.glsl).
+void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, bool is_real) {
+    const vec3 f = is_real ? scattered : 1.0 - scattered - absorbed;
+    const vec3 density = is_real ? scattered : 1.0 - scattered;
+    const float m = is_chromatic != 0u ? mean(p.r * density) : density.x;
+    p.throughput *= f / m;
+    if (is_chromatic != 0u) p.r *= density / m;
+}
+
+void main() {
+    const uint slot = dequeue(QUEUE_TRACK);
+    if (slot == NONE) return;
+    Path p;
+    load_ray(slot, p);
+    load_throughput(slot, p);
+    load_radiance(slot, p);
+    load_sample(slot, p);
+    const uvec4 hit = load_path(PATH_HIT, slot);
+    const Medium medium = load_medium(p.medium);
+    float t;
+    const Field f = begin_field(medium, p.origin, p.direction, uintBitsToFloat(hit.x), t);
+    if (p.status == STATUS_TRACKING) t = uintBitsToFloat(load_path(PATH_TRACK, slot).x);
+
+    bool goes_on = t < f.t_end, is_real = false;
+    uint steps = 0u;
+    do {
+        const uvec4 words = draw(p, BLOCK_PATH);
+        float bound;
+        goes_on = goes_on && next_collision(f, exponential_variate(words.x), t, bound);
+        if (goes_on) {
+            const Tap tap = tap_field(medium, f, t, unit_float(words.y));
+            const vec3 absorbed = tap.sigma_a / bound, scattered = tap.sigma_s / bound;
+            if (has_emission != 0u) p.radiance += p.throughput * absorbed * tap.emission;
+            is_real = unit_float(words.z) < scattered[is_chromatic != 0u ? p.hero : 0u];
+            weigh_collision(p, absorbed, scattered, is_real);
+            const vec3 extinction = absorbed + scattered;
+            if (max(extinction.x, max(extinction.y, extinction.z)) > 1.0001) ++mishaps[HEALTH_MAJORANT];
+            ++p.event;
+            goes_on = !is_real && t < f.t_end && !is_black(p.throughput);
+        }
+    } while (goes_on && ++steps < push.run_length);
+
+    p.status = goes_on ? STATUS_TRACKING : is_black(p.throughput) ? STATUS_ENDED : STATUS_RAY;
+    if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(t), 0u, 0u, 0u));
+    if (is_real) store_path(PATH_HIT, slot, uvec4(floatBitsToUint(t), COLLISION, NONE, hit.w));
+    store_origin(slot, p);
+    store_direction(slot, p);
+    store_throughput(slot, p);
+    if (has_emission != 0u) store_radiance(slot, p);
+    report_health();
+    if (!goes_on)
+        enqueue(p.status == STATUS_ENDED ? QUEUE_ENDED : is_real ? QUEUE_VOLUME : queue_of_surface(hit.y), slot);
+}

@@ -1,0 +1,105 @@
+#include "cli/options.h"
+
+#include "core/error.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+namespace tyndall::cli {
+namespace {
+
+void add_scene_options(CLI::App& app, SceneOptions& o) {
+    app.add_option("scene", o.scene, "Scene file (.pbrt, .pbrt.gz)")->required();
+    app.add_option("--spp", o.spp, "Samples per pixel")->check(CLI::Range(1u, 0x7FFFFFFFu));
+    app.add_option("--seed", o.seed, "Seed of the random numbers");
+    app.add_option("--size", o.size, "Picture size WxH in pixels");
+    app.add_option("--crop", o.crop, "Part to render: X0,X1,Y0,Y1, each 0..1");
+    app.add_option("--maxdepth", o.max_depth, "Most scattering events of a path")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--integrator", o.integrator, "volpath or path")
+        ->check(CLI::IsMember({"volpath", "path"}));
+}
+
+void add_device_options(CLI::App& app, DeviceOptions& o) {
+    app.add_option("--device", o.device, "Device name or index (see `tyndall devices`), or reference");
+    app.add_flag("--validate", o.validate, "Run with the Vulkan validation layer");
+    app.add_option("--slots", o.tuning.slots, "Paths in flight (does not change the image)");
+    app.add_option("--run-length", o.tuning.run_length,
+                   "Most events per path and dispatch (does not change the image)");
+    app.add_option("--workgroup", o.tuning.workgroup_size,
+                   "Invocations per workgroup (does not change the image)");
+}
+
+void add_render(CLI::App& app, RenderOptions& o, int& status) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene");
+    add_scene_options(*command, o.scene);
+    add_device_options(*command, o.device);
+    command->add_option("-o,--output", o.outputs, "Image file by extension: .exr .png .hdr .tif (repeatable)")
+        ->allow_extra_args(false);
+    command->add_option("--time", o.time, "End after this many seconds")->check(CLI::PositiveNumber);
+    command->add_option("--write-interval", o.write_interval, "Write the image so far every so many seconds")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--stats", o.stats, "Write statistics as JSON");
+    command->add_flag("--strict", o.strict, "Fail if any contribution had to be dropped");
+    command->add_flag("--quiet", o.quiet, "No progress");
+    command->callback([&] { status = run_render(o); });
+}
+
+void add_verify(CLI::App& app, VerifyOptions& o, int& status) {
+    CLI::App* command = app.add_subcommand(
+        "verify", "Test the device's image of a scene against the reference renderer");
+    add_scene_options(*command, o.scene);
+    add_device_options(*command, o.device);
+    command->add_option("--batches", o.batches, "Independent batches that the samples are split into")
+        ->check(CLI::Range(4, 256));
+    command->add_option("--corrupt", o.corrupt,
+                        "Control: perturb the device's image by this fraction; it must be rejected");
+    command->add_flag("--json", o.json, "Print the result as JSON");
+    command->add_flag("--quiet", o.quiet, "No progress");
+    command->callback([&] { status = run_verify(o); });
+}
+
+void add_rest(CLI::App& app, InfoOptions& info, CompareOptions& compare, DevicesOptions& devices,
+              int& status) {
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene calls for; renders nothing");
+    add_scene_options(*command, info.scene);
+    command->add_flag("--json", info.json, "Print as JSON");
+    command->callback([&] { status = run_info(info); });
+
+    command = app.add_subcommand("compare", "Compare two images");
+    command->add_option("a", compare.a, "Image")->required();
+    command->add_option("b", compare.b, "Image taken as the reference")->required();
+    command->add_option("-o,--output", compare.difference, "Write the difference a - b");
+    command->add_flag("--json", compare.json, "Print as JSON");
+    command->callback([&] { status = run_compare(compare); });
+
+    command = app.add_subcommand("devices", "List what Vulkan offers here");
+    command->add_flag("--json", devices.json, "Print as JSON");
+    command->callback([&] { status = run_devices(devices); });
+}
+
+} // namespace
+
+int run(int argc, char** argv) {
+    CLI::App app("Tyndall: light in participating media, on any Vulkan device.", "tyndall");
+    app.set_version_flag("--version", TYNDALL_VERSION);
+    app.require_subcommand(1);
+    int status = 0;
+    RenderOptions render;
+    VerifyOptions verify;
+    InfoOptions info;
+    CompareOptions compare;
+    DevicesOptions devices;
+    add_render(app, render, status);
+    add_verify(app, verify, status);
+    add_rest(app, info, compare, devices, status);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? 0 : static_cast<int>(ExitStatus::bad_input);
+    }
+    return status;
+}
+
+} // namespace tyndall::cli

@@ -1,0 +1,78 @@
+/// The command line, as values. See DESIGN: scripts depend on names and meanings.
+#pragma once
+
+#include "render/wavefront.h"
+#include "scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tyndall::cli {
+
+/// What `render`, `verify` and `info` have in common: a scene, and changes to it.
+struct SceneOptions {
+    std::string scene;
+    std::optional<std::uint32_t> spp;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::string> size; ///< WxH
+    std::optional<std::string> crop; ///< X0,X1,Y0,Y1, each 0..1
+    std::optional<int> max_depth;
+    std::optional<std::string> integrator;
+};
+
+struct DeviceOptions {
+    std::string device; ///< Name, index, or "reference".
+    bool validate = false;
+    Tuning tuning;
+};
+
+struct RenderOptions {
+    SceneOptions scene;
+    DeviceOptions device;
+    std::vector<std::string> outputs;
+    std::optional<double> time;           ///< Seconds.
+    std::optional<double> write_interval; ///< Seconds.
+    std::string stats;
+    bool strict = false;
+    bool quiet = false;
+};
+
+struct VerifyOptions {
+    SceneOptions scene;
+    DeviceOptions device;
+    std::uint32_t batches = 16;
+    double corrupt = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
+struct InfoOptions {
+    SceneOptions scene;
+    bool json = false;
+};
+
+struct CompareOptions {
+    std::string a, b;
+    std::string difference; ///< File for the difference image, or "".
+    bool json = false;
+};
+
+struct DevicesOptions {
+    bool json = false;
+};
+
+/// Each command's work; returns the exit status. Throws Error.
+int run_render(const RenderOptions& options);
+int run_verify(const VerifyOptions& options);
+int run_info(const InfoOptions& options);
+int run_compare(const CompareOptions& options);
+int run_devices(const DevicesOptions& options);
+
+/// Parses the command line and runs what it asks for.
+int run(int argc, char** argv);
+
+/// Reads the scene, prints its warnings, and applies the changes. Throws Error (bad usage: bad_input).
+Scene load_scene(const SceneOptions& options);
+
+} // namespace tyndall::cli

@@ -1,0 +1,184 @@
+#include "reference/lights.h"
+
+#include <algorithm>
+
+namespace tyndall::reference {
+namespace {
+
+double mean(const Rgb& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+/// A place nearer than this to the surface of a ball, in radii, counts as inside: a point of the
+/// ball itself must not be taken for one outside of it, whose cone is the wrong half of the
+/// directions.
+constexpr double ball_margin = 1e-4;
+
+/// The cone in which a ball is seen from outside.
+struct Cone {
+    dvec3 axis;
+    double distance;             ///< To the centre.
+    double one_minus_cosine_max; ///< In (0, 1).
+};
+
+std::optional<Cone> cone_of(const Surface::Ball& ball, const dvec3& place) {
+    const dvec3 to_center = ball.center - place;
+    const double distance = glm::length(to_center);
+    if (distance <= ball.radius * (1 + ball_margin)) return std::nullopt;
+    const double sine = ball.radius / distance;
+    const double cosine = std::sqrt((1 - sine) * (1 + sine));
+    return Cone{to_center / distance, distance, sine * sine / (1 + cosine)};
+}
+
+double cone_density(const Cone& cone) {
+    return 1 / (2 * pi * cone.one_minus_cosine_max);
+}
+
+/// A point of the ball, uniform over the solid angle of the cone.
+dvec3 sample_cone(const Surface::Ball& ball, const Cone& cone, const dvec3& place, double u1,
+                  double u2) {
+    const double one_minus_cosine = u1 * cone.one_minus_cosine_max;
+    const double sine = std::sqrt(one_minus_cosine * (2 - one_minus_cosine));
+    const dvec3 direction = direction_around(cone.axis, sine, 1 - one_minus_cosine, u2);
+    const double miss = cone.distance * sine; // Of the centre.
+    const double inside = std::max(0.0, (ball.radius - miss) * (ball.radius + miss));
+    const double t = cone.distance * (1 - one_minus_cosine) - std::sqrt(inside);
+    return ball.center + ball.radius * glm::normalize(place + t * direction - ball.center);
+}
+
+/// pbrt's spot: full inside the inner cone, smoothstep of the cosine to the outer one.
+double spot_falloff(const SpotLight& light, double cosine) {
+    if (cosine >= light.cos_falloff_start) return 1;
+    if (cosine <= light.cos_total_width) return 0;
+    const double x =
+        (cosine - light.cos_total_width) / (light.cos_falloff_start - light.cos_total_width);
+    return x * x * (3 - 2 * x);
+}
+
+double spot_power(const SpotLight& light) {
+    return 2 * pi * mean(light.intensity) *
+           ((1 - light.cos_falloff_start) + (light.cos_falloff_start - light.cos_total_width) / 2);
+}
+
+LightSample sample_point(const dvec3& position, const dvec3& place, const Rgb& intensity) {
+    const dvec3 offset = position - place;
+    const double squared = glm::dot(offset, offset);
+    return {intensity / squared, offset / std::sqrt(squared), position, 1, true};
+}
+
+} // namespace
+
+Lights::Lights(const Scene& scene, const Geometry& geometry, const dvec3& camera_position)
+    : geometry_(geometry), camera_position_(camera_position),
+      first_emitter_(scene.shapes.size(), -1), choice_({}) {
+    std::vector<double> powers;
+    add_lights(scene, powers);
+    for (std::uint32_t s = 0; s < scene.shapes.size(); ++s)
+        add_surface(scene, s, powers);
+    choice_ = AliasTable(powers);
+}
+
+void Lights::add_lights(const Scene& scene, std::vector<double>& powers) {
+    // A distant light shines on the ball around the bounds of all surfaces.
+    const Bounds& box = geometry_.bounds();
+    // Without any, on one of radius 1, in whatever medium there is.
+    const double diagonal = box.empty() ? 0 : glm::length(box.upper - box.lower);
+    const double radius = diagonal > 0 ? diagonal / 2 : 1;
+    for (const Light& light : scene.lights) {
+        if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
+            background_ += infinite->radiance;
+        } else if (const auto* distant = std::get_if<DistantLight>(&light.emitter)) {
+            emitters_.push_back(*distant);
+            powers.push_back(mean(distant->irradiance) * pi * radius * radius);
+        } else if (const auto* point = std::get_if<PointLight>(&light.emitter)) {
+            emitters_.push_back(*point);
+            powers.push_back(mean(point->intensity) * 4 * pi);
+        } else if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) {
+            emitters_.push_back(*spot);
+            powers.push_back(spot_power(*spot));
+        }
+    }
+}
+
+void Lights::add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers) {
+    const Shape& shape = scene.shapes[index];
+    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
+    if (shape.area_light < 0 || material.kind == Material::Kind::interface) return;
+    const AreaLight& light = scene.area_lights[static_cast<std::size_t>(shape.area_light)];
+    const Surface& surface = geometry_.surfaces()[index];
+    first_emitter_[index] = static_cast<std::int64_t>(emitters_.size());
+    for (std::uint32_t p = 0; p < surface.primitive_count(); ++p) {
+        const double area = surface.area(p);
+        // pbrt's rule: "power" is that of each primitive. One without an area gives no light.
+        Rgb radiance = light.radiance;
+        if (area > 0) radiance += light.power_radiance / area;
+        emitters_.push_back(AreaEmitter{{index, p}, radiance, light.two_sided});
+        powers.push_back(mean(radiance) * area * pi * (light.two_sided ? 2 : 1));
+    }
+}
+
+std::uint32_t Lights::area_light_index(const PrimitiveId& id) const {
+    return static_cast<std::uint32_t>(first_emitter_[id.surface]) + id.primitive;
+}
+
+std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& words) const {
+    const std::uint32_t index = choice_.choose(words.x);
+    const Emitter& emitter = emitters_[index];
+    std::optional<LightSample> sample;
+    if (const auto* distant = std::get_if<DistantLight>(&emitter)) {
+        sample = LightSample{distant->irradiance, -distant->direction, std::nullopt, 1, true};
+    } else if (const auto* point = std::get_if<PointLight>(&emitter)) {
+        sample = sample_point(point->position - camera_position_, place, point->intensity);
+    } else if (const auto* spot = std::get_if<SpotLight>(&emitter)) {
+        sample = sample_point(spot->position - camera_position_, place, spot->intensity);
+        sample->radiance *= spot_falloff(*spot, -glm::dot(sample->direction, spot->axis));
+    } else {
+        const AreaEmitter& area = std::get<AreaEmitter>(emitter);
+        sample = sample_area(area, place, unit(words.y), unit(words.z));
+    }
+    if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
+    sample->probability *= choice_.probability(index);
+    return sample;
+}
+
+std::optional<LightSample> Lights::sample_area(const AreaEmitter& light, const dvec3& place,
+                                               double u1, double u2) const {
+    const Surface& surface = geometry_.surfaces()[light.id.surface];
+    const std::optional<Surface::Ball>& ball = surface.ball();
+    const std::optional<Cone> cone = ball ? cone_of(*ball, place) : std::nullopt;
+    const Parameters parameters =
+        cone ? surface.parameters_of_point(sample_cone(*ball, *cone, place, u1, u2))
+             : surface.sample(light.id.primitive, u1, u2);
+    const SurfacePoint point = surface.point(light.id.primitive, parameters);
+    const dvec3 direction = glm::normalize(point.position - place);
+    const double facing = -glm::dot(point.normal, direction);
+    if (facing == 0 || (facing < 0 && !light.two_sided)) return std::nullopt;
+    const double density = cone ? cone_density(*cone) : area_density(light, place, point);
+    return LightSample{light.radiance, direction, leave(point, -direction), density, false};
+}
+
+double Lights::area_density(const AreaEmitter& light, const dvec3& place,
+                            const SurfacePoint& point) const {
+    const Surface& surface = geometry_.surfaces()[light.id.surface];
+    if (const std::optional<Surface::Ball>& ball = surface.ball())
+        if (const std::optional<Cone> cone = cone_of(*ball, place)) return cone_density(*cone);
+    const dvec3 offset = point.position - place;
+    const double squared = glm::dot(offset, offset);
+    const double cosine = std::abs(glm::dot(point.normal, offset)) / std::sqrt(squared);
+    return squared / (cosine * point.jacobian);
+}
+
+Rgb Lights::emitted(const SurfaceHit& hit, const dvec3& ray_direction) const {
+    if (!hit.id || first_emitter_[hit.id->surface] < 0) return Rgb(0);
+    const auto& light = std::get<AreaEmitter>(emitters_[area_light_index(*hit.id)]);
+    const bool faces = glm::dot(hit.point.normal, ray_direction) < 0;
+    return faces || light.two_sided ? light.radiance : Rgb(0);
+}
+
+double Lights::density(const dvec3& place, const SurfaceHit& hit) const {
+    const std::uint32_t index = area_light_index(*hit.id);
+    const auto& light = std::get<AreaEmitter>(emitters_[index]);
+    return choice_.probability(index) * area_density(light, place, hit.point);
+}
+
+} // namespace tyndall::reference

@@ -1,0 +1,66 @@
+/// Light sources: emission that a path runs into, and choosing a point of a light from a place.
+#pragma once
+
+#include "reference/alias_table.h"
+#include "reference/geometry.h"
+
+namespace tyndall::reference {
+
+/// Light that would arrive at a place, if nothing were in the way.
+struct LightSample {
+    Rgb radiance;             ///< Along -direction; of a delta light, irradiance at the place.
+    dvec3 direction;          ///< From the place to the light, unit length.
+    std::optional<dvec3> end; ///< Where the shadow ray ends; none: at infinity.
+    double probability;       ///< Of a delta light: of choosing it. Else: density per solid angle.
+    bool is_delta;
+};
+
+/// Infinite lights are constant: paths find them by escaping, and they are not sampled. The others
+/// are the distant, point and spot lights in the order of Scene::lights, then every primitive of an
+/// emitting shape, in the order of Scene::shapes, as a light of its own; they are chosen in
+/// proportion to their power, averaged over the channels.
+class Lights {
+  public:
+    /// Keeps references to both. Render space is the world minus camera_position.
+    Lights(const Scene& scene, const Geometry& geometry, const dvec3& camera_position);
+
+    /// Whether sample() can ever return anything.
+    bool can_sample() const { return !choice_.empty(); }
+
+    /// words.x chooses the light, words.y and words.z the point on it. None if it does not shine
+    /// there.
+    std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words) const;
+
+    /// Radiance that leaves a hit surface against the direction of the ray.
+    Rgb emitted(const SurfaceHit& hit, const dvec3& ray_direction) const;
+    /// Density per solid angle with which sample() draws the direction from the place to the hit.
+    double density(const dvec3& place, const SurfaceHit& hit) const;
+
+    /// Radiance of everything at infinity that is not sampled.
+    Rgb background() const { return background_; }
+
+  private:
+    struct AreaEmitter {
+        PrimitiveId id;
+        Rgb radiance;
+        bool two_sided;
+    };
+    using Emitter = std::variant<DistantLight, PointLight, SpotLight, AreaEmitter>;
+
+    void add_lights(const Scene& scene, std::vector<double>& powers);
+    void add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers);
+    std::uint32_t area_light_index(const PrimitiveId& id) const;
+    std::optional<LightSample> sample_area(const AreaEmitter& light, const dvec3& place, double u1,
+                                           double u2) const;
+    double area_density(const AreaEmitter& light, const dvec3& place,
+                        const SurfacePoint& point) const;
+
+    const Geometry& geometry_;
+    dvec3 camera_position_;
+    Rgb background_{0};
+    std::vector<Emitter> emitters_;
+    std::vector<std::int64_t> first_emitter_; ///< For each of Scene::shapes; -1: does not emit.
+    AliasTable choice_;
+};
+
+} // namespace tyndall::reference

@@ -1,0 +1,102 @@
+#include "reference/medium.h"
+
+#include "reference/quadrature.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tyndall::reference {
+namespace {
+
+/// exp(-sigma s), with 1 for sigma = 0 even if s is infinite.
+double decay(double sigma, double s) {
+    return sigma == 0 ? 1 : std::exp(-sigma * s);
+}
+
+double mean(const Rgb& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+bool all_equal(const Rgb& v) {
+    return v.x == v.y && v.y == v.z;
+}
+
+/// integral_0^s sigma_a exp(-(sigma_a + sigma_s[c]) x) / mean_k(r_k exp(-sigma_s[k] x)) dx:
+/// emission at x counts for each hero that gets there without a collision. Relative to the least
+/// sigma_s the integrand falls at least as exp(-lambda x); x = end v^2 puts the nodes where it is
+/// steep.
+double emission_integral(const Medium& medium, const Throughput& throughput, int c, double s) {
+    const double least = std::min({medium.sigma_s.x, medium.sigma_s.y, medium.sigma_s.z});
+    const double lambda = medium.sigma_a[c] + (medium.sigma_s[c] - least);
+    const double end = std::min(s, 40 / lambda); // exp(-40) is below the precision of a double.
+    const auto integrand = [&](double v) {
+        const double x = end * v * v;
+        double reach = 0;
+        for (int k = 0; k < 3; ++k)
+            reach += throughput.ratio[k] * std::exp((least - medium.sigma_s[k]) * x);
+        return 2 * v * std::exp(-lambda * x) * 3 / reach;
+    };
+    return medium.sigma_a[c] * end * integrate(integrand, 0, 1);
+}
+
+} // namespace
+
+bool is_grey(const Medium& medium) {
+    return all_equal(medium.sigma_a) && all_equal(medium.sigma_s);
+}
+
+bool is_scattering(const Medium& medium) {
+    return medium.sigma_s != Rgb(0);
+}
+
+int choose_hero(double u) {
+    return std::min(2, static_cast<int>(3 * u));
+}
+
+double flight_optical_depth(std::uint32_t word) {
+    return -std::log((word + 0.5) * 0x1p-32); // The argument is exact: log loses nothing near 1.
+}
+
+double flight_distance(const Medium& medium, int hero, std::uint32_t word) {
+    const double sigma_s = medium.sigma_s[hero];
+    if (sigma_s == 0) return std::numeric_limits<double>::infinity();
+    return flight_optical_depth(word) / sigma_s;
+}
+
+Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const Segment& segment) {
+    Rgb radiance(0);
+    for (int c = 0; c < 3; ++c) {
+        if (medium.sigma_a[c] == 0 || medium.emission[c] == 0) continue;
+        const double share = all_equal(medium.sigma_s)
+                                 ? -std::expm1(-medium.sigma_a[c] * segment.length)
+                                 : emission_integral(medium, throughput, c, segment.length);
+        radiance[c] = throughput.beta[c] * medium.emission[c] * share;
+    }
+    return radiance;
+}
+
+Throughput after_segment(const Medium& medium, const Throughput& before, const Segment& segment) {
+    // Everything is divided by the hero's own exp(-sigma_s s), which is at least 2^-33.
+    const double hero_sigma = medium.sigma_s[before.hero];
+    Throughput after = before;
+    Rgb probability, contribution;
+    for (int k = 0; k < 3; ++k) {
+        const double sigma_s = medium.sigma_s[k];
+        const double density = segment.collision ? sigma_s : 1;
+        probability[k] = density * decay(sigma_s - hero_sigma, segment.length);
+        contribution[k] = probability[k] * decay(medium.sigma_a[k], segment.length);
+    }
+    const double average = mean(before.ratio * probability);
+    after.beta = before.beta * contribution / average;
+    after.ratio = before.ratio * probability / average;
+    return after;
+}
+
+Rgb transmittance(const Medium& medium, double distance) {
+    Rgb result;
+    for (int c = 0; c < 3; ++c)
+        result[c] = decay(medium.sigma_a[c] + medium.sigma_s[c], distance);
+    return result;
+}
+
+} // namespace tyndall::reference

@@ -1,0 +1,49 @@
+/// Homogeneous media: free flights, and what a segment of a path does to its throughput.
+///
+/// Flights are drawn from the scattering coefficient of one channel, the hero; absorption is a
+/// weight in closed form. The choice of the hero is averaged over by the balance heuristic (Wilkie
+/// et al. 2014, "Hero Wavelength Spectral Sampling"), kept normalised so that nothing underflows.
+#pragma once
+
+#include "reference/sampling.h"
+#include "scene/scene.h"
+
+namespace tyndall::reference {
+
+struct Throughput {
+    Rgb beta{
+        1}; ///< Contribution of the path so far, over its probability averaged over the heroes.
+    Rgb ratio{1}; ///< Probability of the path for each hero, over that average; mean 1.
+    int hero = 0;
+};
+
+/// Channels are alike in sigma_a and in sigma_s: the hero does not matter.
+bool is_grey(const Medium& medium);
+bool is_scattering(const Medium& medium);
+
+/// 0, 1 or 2 with equal probability, from u in [0, 1).
+int choose_hero(double u);
+
+/// -log((word + 1/2) / 2^32): exponentially distributed, in (0, 22.9).
+double flight_optical_depth(std::uint32_t word);
+
+/// Where the flight would collide, if nothing were in the way; may be infinite.
+double flight_distance(const Medium& medium, int hero, std::uint32_t word);
+
+/// A segment that the flight has covered.
+struct Segment {
+    double length;  ///< May be infinite.
+    bool collision; ///< It ends in a collision, not at a surface or nowhere.
+};
+
+/// What the segment emits towards the start of the path, times the throughput at its start: the
+/// expectation over the distance at which it is emitted.
+Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const Segment& segment);
+
+/// The throughput after the segment, before scattering.
+Throughput after_segment(const Medium& medium, const Throughput& before, const Segment& segment);
+
+/// exp(-(sigma_a + sigma_s) distance) for each channel; distance may be infinite.
+Rgb transmittance(const Medium& medium, double distance);
+
+} // namespace tyndall::reference

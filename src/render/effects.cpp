@@ -1,0 +1,215 @@
+#include "render/effects.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+#include <limits>
+
+namespace tyndall {
+namespace {
+
+using namespace shared;
+
+bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
+bool is_black(const Rgb& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+/// Collects effects and remembers what called for each.
+class Collector {
+  public:
+    explicit Collector(const Scene& scene) : scene_(scene) {}
+
+    Effects collect();
+
+  private:
+    void add(std::string name, bool on, std::string called_for) {
+        effects_.list.push_back({std::move(name), on ? "yes" : "no", on ? std::move(called_for) : ""});
+    }
+    void add_value(std::string name, std::string value, std::string called_for = "") {
+        effects_.list.push_back({std::move(name), std::move(value), std::move(called_for)});
+    }
+    void each_shape(const std::function<void(const Shape&)>& visit) const {
+        for (const Shape& shape : scene_.shapes)
+            visit(shape);
+        for (const ObjectInstance& instance : scene_.instances)
+            for (const Shape& shape : scene_.objects[instance.object].shapes)
+                visit(shape);
+    }
+    void collect_geometry();
+    void collect_density(const Medium& medium, const std::string& by);
+    void collect_media();
+    void collect_lights();
+    void collect_camera();
+    bool is_all_grey() const;
+
+    const Scene& scene_;
+    Effects effects_;
+    std::string grid_by_, atmosphere_by_, temperature_by_;
+};
+
+std::string place(const char* what, const SourceLocation& where) {
+    const std::string text = to_string(where);
+    return text.empty() ? what : fmt::format("{} at {}", what, text);
+}
+
+void Collector::collect_geometry() {
+    shared::Features& f = effects_.features;
+    effects_.region = find_region(scene_);
+    f.has_interfaces = f.has_surfaces = f.has_emitters = f.has_shading_normals = 0;
+    std::string interface_by, surface_by, emitter_by, normals_by;
+    each_shape([&](const Shape& shape) {
+        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+        if (mesh && !mesh->normals.empty())
+            f.has_shading_normals = 1, normals_by = place("mesh", shape.where);
+        if (scene_.materials[shape.material].kind == Material::Kind::interface) {
+            f.has_interfaces = 1, interface_by = place("shape", shape.where);
+        } else {
+            f.has_surfaces = 1, surface_by = place("shape", shape.where);
+        }
+        if (shape.area_light >= 0) f.has_emitters = 1, emitter_by = place("shape", shape.where);
+    });
+    f.geometry = effects_.region                                      ? effects_.region->geometry
+                 : scene_.shapes.empty() && scene_.instances.empty() ? GEOMETRY_NONE
+                                                                     : GEOMETRY_BVH;
+    constexpr std::array<const char*, 4> names{"nothing", "one box", "one ellipsoid", "hierarchy"};
+    add_value("geometry", names[f.geometry]);
+    add("interfaces", f.has_interfaces, interface_by);
+    add("surfaces", f.has_surfaces, surface_by);
+    add("emitting surfaces", f.has_emitters, emitter_by);
+    add("shading normals", f.has_shading_normals, normals_by);
+    add("instances", !scene_.instances.empty(), "ObjectInstance");
+}
+
+/// What the density of a medium calls for.
+void Collector::collect_density(const Medium& medium, const std::string& by) {
+    shared::Features& f = effects_.features;
+    if (const auto* exponential = std::get_if<ExponentialDensity>(&medium.density)) {
+        f.densities |= exponential->is_spherical ? DENSITY_BIT_SPHERE : DENSITY_BIT_PLANE;
+        atmosphere_by_ = by;
+    }
+    if (const auto* grid = std::get_if<GridDensity>(&medium.density)) {
+        f.densities |= DENSITY_BIT_GRID;
+        grid_by_ = by;
+        if (!grid->density) {
+            // Coefficients by voxel and channel: taken for chromatic without looking at each voxel.
+            f.has_rgb_grids = 1;
+            f.is_chromatic = f.has_scattering;
+        }
+        if (grid->temperature) f.has_temperature = 1, temperature_by_ = by;
+    }
+}
+
+void Collector::collect_media() {
+    shared::Features& f = effects_.features;
+    f.densities = f.has_rgb_grids = f.has_temperature = 0;
+    f.has_media = f.has_scattering = f.has_emission = f.is_anisotropic = f.is_chromatic = 0;
+    std::string media_by, scattering_by, emission_by, anisotropic_by, chromatic_by;
+    std::vector<bool> used(scene_.media.size(), false);
+    const auto use = [&](int medium) {
+        if (medium >= 0) used[medium] = true;
+    };
+    use(scene_.camera.medium);
+    each_shape([&](const Shape& shape) {
+        if (!shape.media.is_transition()) return;
+        use(shape.media.inside);
+        use(shape.media.outside);
+    });
+    const bool wanted = scene_.integrator.kind == Integrator::Kind::volpath;
+    for (std::size_t i = 0; wanted && i < scene_.media.size(); ++i) {
+        if (!used[i]) continue;
+        const Medium& m = scene_.media[i];
+        const std::string by = place(fmt::format("medium \"{}\"", m.name).c_str(), m.where);
+        f.has_media = 1, media_by = by;
+        if (!is_black(m.sigma_s)) {
+            f.has_scattering = 1, scattering_by = by;
+            if (m.phases.front().g != 0) f.is_anisotropic = 1, anisotropic_by = by;
+            if (!is_grey(m.sigma_s)) f.is_chromatic = 1, chromatic_by = by;
+        }
+        if (!is_black(m.emission) && !is_black(m.sigma_a)) f.has_emission = 1, emission_by = by;
+        collect_density(m, by);
+    }
+    effects_.has_camera_medium = f.has_media && scene_.camera.medium >= 0;
+    add("media", f.has_media, media_by);
+    add("scattering", f.has_scattering, scattering_by);
+    add("emission of media", f.has_emission, emission_by);
+    add("anisotropic phase", f.is_anisotropic, anisotropic_by);
+    add("spectral MIS", f.is_chromatic, chromatic_by);
+    add("grids", f.densities & DENSITY_BIT_GRID, grid_by_);
+    add("black body emission", f.has_temperature, temperature_by_);
+    add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE), atmosphere_by_);
+}
+
+void Collector::collect_lights() {
+    shared::Features& f = effects_.features;
+    f.lights = f.has_emitters ? LIGHTS_AREA : 0;
+    std::string environment_by;
+    for (const Light& light : scene_.lights) {
+        if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
+            effects_.environment += infinite->radiance;
+            environment_by = place("light", light.where);
+        } else if (std::holds_alternative<DistantLight>(light.emitter)) {
+            f.lights |= LIGHTS_DISTANT;
+        } else if (std::holds_alternative<PointLight>(light.emitter)) {
+            f.lights |= LIGHTS_POINT;
+        } else {
+            f.lights |= LIGHTS_SPOT;
+        }
+    }
+    f.has_environment = !is_black(effects_.environment);
+    // Light sampling starts from where light is scattered.
+    if (!f.has_scattering && !f.has_surfaces) f.lights = 0;
+    effects_.samples_lights = f.lights != 0;
+    add("environment", f.has_environment, environment_by);
+    add("area lights", f.lights & LIGHTS_AREA, "AreaLightSource");
+    add("distant lights", f.lights & LIGHTS_DISTANT, "LightSource \"distant\"");
+    add("point lights", f.lights & LIGHTS_POINT, "LightSource \"point\"");
+    add("spot lights", f.lights & LIGHTS_SPOT, "LightSource \"spot\"");
+}
+
+bool Collector::is_all_grey() const {
+    bool grey = is_grey(effects_.environment);
+    for (const Medium& m : scene_.media)
+        grey = grey && is_grey(m.sigma_a) && is_grey(m.sigma_s) && is_grey(m.emission);
+    grey = grey && !effects_.features.has_rgb_grids && !effects_.features.has_temperature;
+    for (const Material& m : scene_.materials)
+        grey = grey && is_grey(m.reflectance);
+    for (const AreaLight& a : scene_.area_lights)
+        grey = grey && is_grey(a.radiance) && is_grey(a.power_radiance);
+    for (const Light& light : scene_.lights) {
+        if (const auto* d = std::get_if<DistantLight>(&light.emitter)) grey = grey && is_grey(d->irradiance);
+        if (const auto* p = std::get_if<PointLight>(&light.emitter)) grey = grey && is_grey(p->intensity);
+        if (const auto* s = std::get_if<SpotLight>(&light.emitter)) grey = grey && is_grey(s->intensity);
+    }
+    return grey;
+}
+
+void Collector::collect_camera() {
+    shared::Features& f = effects_.features;
+    switch (scene_.filter.kind) {
+    case PixelFilter::Kind::box: f.filter_kind = FILTER_BOX; break;
+    case PixelFilter::Kind::triangle: f.filter_kind = FILTER_TRIANGLE; break;
+    default: f.filter_kind = FILTER_TABLE; break;
+    }
+    f.has_lens = scene_.camera.lens_radius > 0;
+    f.has_clamp = scene_.film.max_component_value < std::numeric_limits<double>::infinity();
+    f.is_orthographic = scene_.camera.kind == Camera::Kind::orthographic;
+    constexpr std::array<const char*, 3> filters{"box", "triangle", "tabulated"};
+    add_value("pixel filter", filters[f.filter_kind]);
+    add("depth of field", f.has_lens, "lensradius");
+    add("radiance limit", f.has_clamp, "maxcomponentvalue");
+}
+
+Effects Collector::collect() {
+    collect_geometry();
+    collect_media();
+    collect_lights();
+    collect_camera();
+    effects_.features.is_grey = is_all_grey();
+    add_value("channels", effects_.features.is_grey ? "1" : "3");
+    return std::move(effects_);
+}
+
+} // namespace
+
+Effects compute_effects(const Scene& scene) { return Collector(scene).collect(); }
+
+} // namespace tyndall

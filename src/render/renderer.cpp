@@ -1,0 +1,192 @@
+#include "render/renderer.h"
+
+#include "core/error.h"
+#include "shared/schedule.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tyndall {
+namespace {
+
+using shared::batch_first_sample;
+using shared::Control;
+using Clock = std::chrono::steady_clock;
+
+/// What one submission should take: short enough for watchdogs, Ctrl-C and progress.
+constexpr double kSubmitSeconds = 0.04;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The batch that holds the sample.
+std::uint32_t batch_of(std::uint32_t sample) {
+    std::uint32_t low = 0, high = sample + 1; // a batch has a sample at least
+    while (high - low > 1) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        (batch_first_sample(middle) <= sample ? low : high) = middle;
+    }
+    return low;
+}
+
+/// The result of make(), and how long it took.
+template<typename Make>
+auto timed(double& seconds, const Make& make) {
+    const Clock::time_point start = Clock::now();
+    auto result = make();
+    seconds = seconds_since(start);
+    return result;
+}
+
+} // namespace
+
+/// One submission: while one runs, the next is recorded.
+struct Renderer::Flight {
+    Flight(const gpu::Context& context, std::size_t stage_count)
+        : commands(context),
+          control(context, "control readback", sizeof(Control), {.host_visible = true}),
+          clock(context, static_cast<std::uint32_t>(stage_count) + 1) {}
+
+    gpu::Commands commands;
+    gpu::Buffer control;
+    gpu::Timestamps clock;
+    std::uint32_t rounds = 0;
+};
+
+Renderer::Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning)
+    : context_(&context), effects_(compute_effects(scene)),
+      tables_(timed(build_seconds_, [&] { return make_scene_tables(scene, effects_); })),
+      wavefront_(timed(compile_seconds_,
+                       [&] { return Wavefront(context, tables_, effects_, tuning); })) {
+    tables_.texels = {}; // on the device now
+}
+
+std::uint32_t Renderer::samples_of(std::uint32_t batches) const {
+    const std::uint32_t end = std::min(batch_first_sample(batches), end_sample_);
+    return end > first_sample_ ? end - first_sample_ : 0;
+}
+
+std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sample,
+                               const KeepGoing& keep_going) {
+    TYNDALL_ASSERT(first_sample < end_sample);
+    first_sample_ = first_sample;
+    end_sample_ = end_sample;
+    health_ = health_before_ = {};
+    stage_times_.clear();
+    for (const std::string& name : wavefront_.stage_names())
+        stage_times_.push_back({.name = name});
+    folded_batches_ = batch_of(first_sample);
+    const std::uint32_t end_batch = batch_of(end_sample - 1) + 1;
+    // Tickets are 32-bit words: an epoch has as many batches as they can number.
+    const std::uint32_t per_epoch = std::max(1u, 0x7FFFFFFFu / tables_.push.pixel_count);
+    for (bool first_epoch = true; folded_batches_ < end_batch; first_epoch = false) {
+        const std::uint32_t count = std::min(per_epoch, end_batch - folded_batches_);
+        epoch_batch_ = folded_batches_;
+        health_before_ = health_;
+        wavefront_.begin_epoch(epoch_batch_, count, first_sample, end_sample, first_epoch);
+        if (!run_epoch(count, keep_going)) break;
+    }
+    return samples();
+}
+
+void Renderer::submit(Flight& flight) {
+    flight.commands.begin();
+    flight.rounds = rounds_;
+    wavefront_.record_rounds(flight.commands, rounds_, flight.clock);
+    wavefront_.record_readback(flight.commands, flight.control);
+    flight.commands.submit();
+}
+
+/// Waits for a submission and takes in what it left.
+void Renderer::land(Flight& flight) {
+    flight.commands.wait();
+    Control control;
+    std::memcpy(&control, flight.control.mapped(), sizeof(control));
+    take_in(control);
+    const std::vector<double> seconds = flight.clock.intervals();
+    for (std::size_t i = 0; i < stage_times_.size(); ++i) {
+        stage_times_[i].dispatches += flight.rounds;
+        stage_times_[i].seconds += seconds[i] * flight.rounds;
+    }
+}
+
+void Renderer::take_in(const Control& control) {
+    // The last round's update_film has folded fold_count batches on top of folded_batches.
+    folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
+    for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind)
+        health_[kind] = health_before_[kind] + control.health[kind];
+    epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
+}
+
+/// Runs rounds until every batch of the epoch is in the film. False if told to stop before.
+bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going) {
+    std::array<Flight, 2> flights{Flight(*context_, stage_times_.size()),
+                                  Flight(*context_, stage_times_.size())};
+    const auto samples_begun = [&] { // of a pixel, between batches in proportion
+        const double batches = std::min<double>(epoch_share_, batch_count);
+        const auto whole = static_cast<std::uint32_t>(batches);
+        const double first = samples_of(epoch_batch_ + whole);
+        return first + (samples_of(epoch_batch_ + whole + 1) - first) * (batches - whole);
+    };
+    submit(flights[0]);
+    Clock::time_point last = Clock::now();
+    for (std::size_t i = 0;; i ^= 1) {
+        submit(flights[i ^ 1]);
+        land(flights[i]);
+        const bool is_done = folded_batches_ == epoch_batch_ + batch_count;
+        const Progress progress{samples(), end_sample_ - first_sample_,
+                                samples_begun() * tables_.push.pixel_count};
+        const bool is_told_to_stop = keep_going && !keep_going(progress) && samples() > 0;
+        if (is_done || is_told_to_stop) {
+            land(flights[i ^ 1]);
+            return folded_batches_ == epoch_batch_ + batch_count;
+        }
+        // Twice as much or half as much at a time: one submission is no reliable measure.
+        const double seconds = seconds_since(last);
+        last = Clock::now();
+        if (seconds < 0.5 * kSubmitSeconds) rounds_ = std::min(rounds_ * 2, 1024u);
+        if (seconds > 2.0 * kSubmitSeconds) rounds_ = std::max(rounds_ / 2, 1u);
+    }
+}
+
+void Renderer::each_film_pixel(const std::function<void(std::size_t, const glm::vec4*)>& visit) {
+    // Submissions in flight may have folded more since their control block was last seen.
+    take_in(wavefront_.read_control());
+    constexpr std::uint32_t chunk = 1u << 18;
+    std::vector<glm::vec4> texels;
+    for (std::uint32_t first = 0; first < tables_.push.pixel_count; first += chunk) {
+        const std::uint32_t count = std::min(chunk, tables_.push.pixel_count - first);
+        wavefront_.read_film(first, count, texels);
+        for (std::uint32_t i = 0; i < count; ++i)
+            visit(std::size_t{first} + i, &texels[std::size_t{i} * shared::FILM_TEXELS]);
+    }
+}
+
+std::vector<glm::dvec4> Renderer::read_sums() {
+    std::vector<glm::dvec4> sums(tables_.push.pixel_count);
+    each_film_pixel([&](std::size_t pixel, const glm::vec4* film) {
+        sums[pixel] = glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
+    });
+    return sums;
+}
+
+Image Renderer::read_film() {
+    const auto width = static_cast<int>(tables_.push.width);
+    Image image(width, static_cast<int>(tables_.push.pixel_count) / width,
+                {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
+    each_film_pixel([&](std::size_t pixel, const glm::vec4* film) {
+        const glm::dvec4 sum = glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
+        if (sum.w == 0) return;
+        const double batches = folded_batches_ - batch_of(first_sample_);
+        const double divisor = batches > 1 ? (batches - 1) * samples() : 0;
+        for (int c = 0; c < 3; ++c) {
+            image.pixels[pixel * 6 + c] = static_cast<float>(sum[c] / sum.w);
+            if (divisor > 0)
+                image.pixels[pixel * 6 + 3 + c] = static_cast<float>(film[shared::FILM_RESIDUAL][c] / divisor);
+        }
+    });
+    return image;
+}
+
+} // namespace tyndall

@@ -1,0 +1,85 @@
+/// Progressive rendering on the device.
+#pragma once
+
+#include "image/image.h"
+#include "render/wavefront.h"
+
+#include <array>
+#include <chrono>
+#include <functional>
+
+namespace tyndall {
+
+/// What a render looks like while it goes on.
+struct Progress {
+    std::uint32_t samples = 0;     ///< Per pixel, in the film.
+    std::uint32_t end_samples = 0; ///< Per pixel, asked for.
+    double paths = 0;              ///< Camera paths begun.
+};
+
+/// Called every now and then; false asks to stop, which happens once the film has a batch at least.
+using KeepGoing = std::function<bool(const Progress&)>;
+
+using HealthCounts = std::array<std::uint64_t, shared::HEALTH_COUNT>;
+constexpr std::array<const char*, shared::HEALTH_COUNT> kHealthNames{"nonfinite", "negative", "majorant_exceeded"};
+
+/// What a stage took so far.
+struct StageTime {
+    std::string name;
+    std::uint64_t dispatches = 0;
+    double seconds = 0; ///< Of the device; estimated from the rounds that were timed.
+};
+
+class Renderer {
+  public:
+    Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning = {});
+
+    /// Renders samples first_sample <= s < end_sample of every pixel, into an empty film. Returns how many
+    /// samples the film has in the end: fewer than asked for if told to stop, and then whole batches.
+    /// @throws Error if the device fails.
+    std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
+                         const KeepGoing& keep_going = {});
+
+    /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G variance.B; the
+    /// variance is that of the mean, 0 while there are fewer than two batches.
+    Image read_film();
+    /// Per pixel: sum of filter weight * radiance (xyz) and of filter weights (w).
+    std::vector<glm::dvec4> read_sums();
+
+    /// Samples per pixel in the film.
+    std::uint32_t samples() const { return samples_of(folded_batches_); }
+    const Effects& effects() const { return effects_; }
+    const Wavefront& wavefront() const { return wavefront_; }
+    const HealthCounts& health() const { return health_; }
+    const std::vector<StageTime>& stage_times() const { return stage_times_; }
+    /// Seconds that packing the scene and building its hierarchy took, and compiling the stages.
+    double build_seconds() const { return build_seconds_; }
+    double compile_seconds() const { return compile_seconds_; }
+
+  private:
+    struct Flight;
+
+    std::uint32_t samples_of(std::uint32_t batches) const;
+    bool run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going);
+    void submit(Flight& flight);
+    void land(Flight& flight);
+    void take_in(const shared::Control& control);
+    void each_film_pixel(const std::function<void(std::size_t, const glm::vec4*)>& visit);
+
+    const gpu::Context* context_;
+    Effects effects_;
+    SceneTables tables_;
+    double build_seconds_;
+    Wavefront wavefront_;
+    double compile_seconds_;
+    std::uint32_t first_sample_ = 0, end_sample_ = 0;
+    std::uint32_t epoch_batch_ = 0;    ///< First batch of the present epoch.
+    std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
+    double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
+    HealthCounts health_{};
+    HealthCounts health_before_{}; ///< Of earlier epochs.
+    std::vector<StageTime> stage_times_;
+    std::uint32_t rounds_ = 1;     ///< Per submission, so that one takes about kSubmitSeconds.
+};
+
+} // namespace tyndall

@@ -1,0 +1,414 @@
+#include "render/scene_tables.h"
+
+#include "core/error.h"
+#include "render/light_table.h"
+#include "render/primitives.h"
+#include "render/volume_tables.h"
+#include "scene/filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <numeric>
+#include <optional>
+
+namespace tyndall {
+namespace {
+
+using namespace shared;
+
+constexpr std::uint32_t kLeafSize = 4;
+/// Testing so many triangles one after the other, in step, costs less than a walk that lanes take
+/// differently.
+constexpr std::uint32_t kOneLeafSize = 24;
+
+static_assert(sizeof(CameraRecord) == CAMERA_TEXELS * 16);
+static_assert(sizeof(MediumRecord) == MEDIUM_TEXELS * 16);
+static_assert(sizeof(ShapeRecord) == SHAPE_TEXELS * 16);
+static_assert(sizeof(PrimitiveRecord) == PRIMITIVE_TEXELS * 16);
+static_assert(sizeof(QuadricRecord) == QUADRIC_TEXELS * 16);
+static_assert(sizeof(InstanceRecord) == INSTANCE_TEXELS * 16);
+static_assert(sizeof(NodeRecord) == NODE_TEXELS * 16);
+static_assert(sizeof(LightRecord) == LIGHT_TEXELS * 16);
+static_assert(sizeof(RegionRecord) == REGION_TEXELS * 16);
+
+double mean(const Rgb& c) { return (c.r + c.g + c.b) / 3; }
+
+std::uint32_t medium_word(int medium) {
+    return medium < 0 ? VACUUM : static_cast<std::uint32_t>(medium);
+}
+
+/// Packs a scene table by table.
+class Packer {
+  public:
+    Packer(const Scene& scene, const Effects& effects)
+        : scene_(scene), effects_(effects), origin_(scene.camera.world_from_camera[3]) {
+        render_from_world_[3] = glm::dvec4(-origin_, 1);
+    }
+    SceneTables pack();
+
+  private:
+    /// Appends a table and returns the texel at which it starts.
+    template<typename T>
+    std::uint32_t append(const std::vector<T>& table, const char* name);
+
+    void count_bytes(const char* name, std::size_t bytes);
+    CameraRecord camera() const;
+    std::vector<glm::vec4> filter_table() const;
+    std::vector<ShapeRecord> shapes();
+    struct Roots {
+        std::uint32_t triangles = NONE;
+        std::uint32_t others = NONE;
+        bool is_empty() const { return triangles == NONE && others == NONE; }
+    };
+    void build_geometry();
+    Roots build_hierarchies(ShapeSet& set, Bounds& bounds);
+    std::uint32_t build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size,
+                                  std::uint32_t one_leaf_size, Bounds& bounds);
+    void collect_emitters();
+    std::vector<LightRecord> lights();
+    void pack_geometry();
+
+    struct Emitter {
+        std::uint32_t primitive;
+        Rgb radiance;
+        double power;
+    };
+
+    const Scene& scene_;
+    const Effects& effects_;
+    glm::dvec3 origin_;
+    glm::dmat4 render_from_world_{1};
+    SceneTables tables_;
+    std::optional<VolumePacker> volumes_;
+    std::vector<const Shape*> shape_list_; ///< By shape record.
+    std::vector<PrimitiveRecord> primitives_;
+    std::vector<double> areas_;
+    std::vector<std::uint64_t> source_order_; ///< Of each primitive, in the order of the scene's shapes.
+    std::vector<NodeRecord> nodes_;
+    std::vector<glm::vec4> vertex_normals_;
+    std::vector<QuadricRecord> quadrics_;
+    std::vector<InstanceRecord> instances_;
+    std::vector<Emitter> emitters_;
+    Bounds bounds_;
+};
+
+template<typename T>
+std::uint32_t Packer::append(const std::vector<T>& table, const char* name) {
+    static_assert(sizeof(T) % 16 == 0);
+    const std::size_t start = tables_.texels.size();
+    const std::size_t bytes = table.size() * sizeof(T);
+    tables_.texels.resize(start + bytes / 16);
+    if (bytes) std::memcpy(tables_.texels.data() + start, table.data(), bytes);
+    if (bytes) count_bytes(name, bytes);
+    if (tables_.texels.size() > 0x7FFFFFFFu)
+        throw Error(ExitStatus::failed, "the scene is too large: its tables exceed 2^31 texels");
+    return static_cast<std::uint32_t>(start);
+}
+
+/// Adds to what --stats tells of a table; several may share a name.
+void Packer::count_bytes(const char* name, std::size_t bytes) {
+    for (auto& [known, sum] : tables_.bytes)
+        if (known == name) {
+            sum += bytes;
+            return;
+        }
+    tables_.bytes.emplace_back(name, bytes);
+}
+
+CameraRecord Packer::camera() const {
+    const Camera& camera = scene_.camera;
+    const Film& film = scene_.film;
+    const std::array<double, 4>& window = camera.screen_window;
+    const bool perspective = camera.kind == Camera::Kind::perspective;
+    const double scale = perspective ? std::tan(camera.fov * 3.14159265358979323846 / 360) : 1;
+    const glm::dmat3 linear(camera.world_from_camera);
+    const glm::dvec3 corner = scale * (window[0] * linear[0] + window[3] * linear[1]);
+
+    CameraRecord record{};
+    record.origin_0 = perspective ? glm::dvec3(0) : corner;
+    record.direction_0 = perspective ? corner + linear[2] : linear[2];
+    record.direction_x = scale * (window[1] - window[0]) / film.width * linear[0];
+    record.direction_y = -scale * (window[3] - window[2]) / film.height * linear[1];
+    record.lens_u = camera.lens_radius * linear[0];
+    record.lens_v = camera.lens_radius * linear[1];
+    record.inverse_focal_distance = static_cast<float>(1 / camera.focal_distance);
+    record.medium = effects_.has_camera_medium ? medium_word(camera.medium) : VACUUM;
+    record.clamp = static_cast<float>(std::min(film.max_component_value, 3.4e38));
+    record.exposure = static_cast<float>(camera.shutter_seconds * film.iso / 100);
+    record.filter_x_radius = static_cast<float>(scene_.filter.x_radius);
+    record.filter_y_radius = static_cast<float>(scene_.filter.y_radius);
+    record.environment = effects_.environment;
+    record.filter_cells = FilterTable::cell_count;
+    return record;
+}
+
+std::vector<glm::vec4> Packer::filter_table() const {
+    std::vector<glm::vec4> nodes;
+    if (effects_.features.filter_kind != FILTER_TABLE) return nodes;
+    for (double radius : {scene_.filter.x_radius, scene_.filter.y_radius}) {
+        const FilterTable table = make_filter_table(scene_.filter, radius);
+        for (int i = 0; i <= FilterTable::cell_count; ++i)
+            nodes.emplace_back(table.density[i], table.cdf[i], table.sign_change, 0);
+    }
+    return nodes;
+}
+
+std::vector<ShapeRecord> Packer::shapes() {
+    for (const Shape& shape : scene_.shapes)
+        shape_list_.push_back(&shape);
+    for (const ObjectDefinition& object : scene_.objects)
+        for (const Shape& shape : object.shapes)
+            shape_list_.push_back(&shape);
+    std::vector<ShapeRecord> records;
+    for (const Shape* shape : shape_list_) {
+        const Material& material = scene_.materials[shape->material];
+        ShapeRecord record{};
+        if (material.kind == Material::Kind::interface) record.flags |= SHAPE_INTERFACE;
+        if (shape->media.is_transition() && effects_.features.has_media) record.flags |= SHAPE_TRANSITION;
+        if (shape->area_light >= 0) {
+            record.flags |= SHAPE_EMITS;
+            if (scene_.area_lights[shape->area_light].two_sided) record.flags |= SHAPE_TWO_SIDED;
+        }
+        record.medium_inside = medium_word(shape->media.inside);
+        record.medium_outside = medium_word(shape->media.outside);
+        record.reflectance = material.reflectance;
+        records.push_back(record);
+    }
+    return records;
+}
+
+/// Appends primitives in leaf order with their nodes; returns the root's child word.
+std::uint32_t Packer::build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size,
+                                  std::uint32_t one_leaf_size, Bounds& bounds) {
+    tables_.primitives |= set.kinds;
+    const Bvh bvh = build_bvh(set.bounds, leaf_size, one_leaf_size);
+    bounds = bvh.bounds;
+    if (!bvh.nodes.empty()) tables_.primitives |= PRIMITIVE_TREES;
+    const auto first_node = static_cast<std::uint32_t>(nodes_.size());
+    const auto first_primitive = static_cast<std::uint32_t>(primitives_.size());
+    const auto first_normal = static_cast<std::uint32_t>(vertex_normals_.size());
+    const auto first_quadric = static_cast<std::uint32_t>(quadrics_.size());
+    if (first_primitive + set.primitives.size() > LEAF_FIRST_MASK)
+        throw Error(ExitStatus::failed, fmt::format("more than {} primitives", LEAF_FIRST_MASK));
+    const auto rebase = [&](std::uint32_t child) {
+        return child + (child & LEAF ? first_primitive : first_node);
+    };
+    for (NodeRecord node : bvh.nodes) {
+        node.child0 = rebase(node.child0);
+        node.child1 = rebase(node.child1);
+        nodes_.push_back(node);
+    }
+    for (std::uint32_t index : bvh.order) {
+        PrimitiveRecord p = set.primitives[index];
+        const std::uint32_t kind = p.kind_and_shape >> KIND_SHIFT;
+        if (kind == KIND_SPHERE || kind == KIND_DISK)
+            p.extra += first_quadric;
+        else if (kind != KIND_INSTANCE && p.extra != NONE)
+            p.extra += first_normal;
+        primitives_.push_back(p);
+        areas_.push_back(set.areas[index]);
+        source_order_.push_back(set.source_order[index]);
+    }
+    vertex_normals_.insert(vertex_normals_.end(), set.vertex_normals.begin(), set.vertex_normals.end());
+    quadrics_.insert(quadrics_.end(), set.quadrics.begin(), set.quadrics.end());
+    return rebase(bvh.root);
+}
+
+Bounds unite(const Bounds& a, const Bounds& b) {
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
+
+/// Box of the image of a box.
+Bounds transform_bounds(const glm::dmat4& m, const Bounds& b) {
+    glm::dvec3 lower(INFINITY), upper(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p = m * glm::dvec4(corner & 1 ? b.upper.x : b.lower.x,
+                                            corner & 2 ? b.upper.y : b.lower.y,
+                                            corner & 4 ? b.upper.z : b.lower.z, 1);
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+    }
+    // What is found inside with the error of float32 transforms must not be cut off outside.
+    const glm::dvec3 margin = 2e-6 * glm::max(glm::abs(lower), glm::abs(upper));
+    return round_outward(lower - margin, upper + margin);
+}
+
+Packer::Roots Packer::build_hierarchies(ShapeSet& set, Bounds& bounds) {
+    Roots roots;
+    Bounds triangle_bounds, other_bounds;
+    if (!set.triangles.primitives.empty())
+        roots.triangles = build_hierarchy(set.triangles, kLeafSize, kOneLeafSize, triangle_bounds);
+    if (!set.others.primitives.empty()) roots.others = build_hierarchy(set.others, 1, 4, other_bounds);
+    bounds = roots.triangles == NONE ? other_bounds
+             : roots.others == NONE  ? triangle_bounds
+                                     : unite(triangle_bounds, other_bounds);
+    return roots;
+}
+
+void Packer::build_geometry() {
+    const auto world_shape_count = static_cast<std::uint32_t>(scene_.shapes.size());
+    std::vector<Roots> object_roots;
+    std::vector<Bounds> object_bounds;
+    std::uint32_t shape_index = world_shape_count;
+    for (const ObjectDefinition& object : scene_.objects) {
+        ShapeSet set;
+        for (const Shape& shape : object.shapes)
+            append_shape(shape, glm::dmat4(1), shape_index++, set);
+        object_roots.push_back(build_hierarchies(set, object_bounds.emplace_back()));
+    }
+    ShapeSet world;
+    for (std::uint32_t i = 0; i < world_shape_count; ++i)
+        append_shape(scene_.shapes[i], render_from_world_, i, world);
+    Bounds bounds;
+    const Roots roots = build_hierarchies(world, bounds);
+    tables_.push.triangle_root = roots.triangles;
+    tables_.push.other_root = roots.others;
+    tables_.push.instance_root = NONE;
+    if (!roots.is_empty()) bounds_ = bounds;
+
+    PrimitiveSet instances;
+    for (const ObjectInstance& instance : scene_.instances) {
+        const Roots& object = object_roots[instance.object];
+        if (object.is_empty()) continue;
+        const glm::dmat4 m = render_from_world_ * instance.world_from_definition;
+        instances.primitives.push_back({.kind_and_shape = KIND_INSTANCE << KIND_SHIFT,
+                                        .light = NONE,
+                                        .extra = static_cast<std::uint32_t>(instances_.size())});
+        instances.bounds.push_back(transform_bounds(m, object_bounds[instance.object]));
+        instances.areas.push_back(0);
+        instances.source_order.push_back(0);
+        instances_.push_back({.object_from_world = make_affine(glm::inverse(m)),
+                              .world_from_object = make_affine(m),
+                              .triangle_root = object.triangles,
+                              .other_root = object.others,
+                              .medium_shift = volumes_->medium_shift(instance.world_from_definition)});
+    }
+    if (instances.primitives.empty()) return;
+    instances.kinds = PRIMITIVE_INSTANCES;
+    tables_.push.instance_root = build_hierarchy(instances, 1, 1, bounds); // one to a leaf
+    bounds_ = roots.is_empty() ? bounds : unite(bounds_, bounds);
+}
+
+/// Every primitive that emits is a light of its own, in the order of the scene (not of the hierarchy).
+void Packer::collect_emitters() {
+    for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
+        if (primitives_[i].kind_and_shape >> KIND_SHIFT == KIND_INSTANCE) continue;
+        const Shape& shape = *shape_list_[primitives_[i].kind_and_shape & SHAPE_MASK];
+        if (shape.area_light < 0 || !(areas_[i] > 0)) continue;
+        constexpr std::array<std::uint32_t, 4> kinds{PRIMITIVE_TRIANGLES, PRIMITIVE_PATCHES,
+                                                     PRIMITIVE_SPHERES, PRIMITIVE_DISKS};
+        tables_.emitters |= kinds[primitives_[i].kind_and_shape >> KIND_SHIFT];
+        const AreaLight& light = scene_.area_lights[shape.area_light];
+        const Rgb radiance = light.radiance + light.power_radiance / areas_[i];
+        const double sides = light.two_sided ? 2 : 1;
+        emitters_.push_back({i, radiance, sides * 3.14159265358979323846 * areas_[i] * mean(radiance)});
+    }
+    std::sort(emitters_.begin(), emitters_.end(), [&](const Emitter& a, const Emitter& b) {
+        return source_order_[a.primitive] < source_order_[b.primitive];
+    });
+}
+
+std::vector<LightRecord> Packer::lights() {
+    constexpr double pi = 3.14159265358979323846;
+    std::vector<LightRecord> records;
+    std::vector<double> powers;
+    if (!effects_.samples_lights) return records;
+    // What a distant light shines on: the ball around all surfaces; without any, that of radius 1.
+    const double diameter = glm::length(glm::dvec3(bounds_.upper) - glm::dvec3(bounds_.lower));
+    const double disk = diameter > 0 ? pi * diameter * diameter / 4 : pi;
+    for (const Light& light : scene_.lights) {
+        if (const auto* d = std::get_if<DistantLight>(&light.emitter)) {
+            records.push_back({.position = d->direction, .kind = LIGHT_DISTANT, .radiance = d->irradiance});
+            powers.push_back(mean(d->irradiance) * disk);
+        } else if (const auto* p = std::get_if<PointLight>(&light.emitter)) {
+            records.push_back({.position = p->position - origin_, .kind = LIGHT_POINT, .radiance = p->intensity});
+            powers.push_back(mean(p->intensity) * 4 * pi);
+        } else if (const auto* s = std::get_if<SpotLight>(&light.emitter)) {
+            records.push_back({.position = s->position - origin_,
+                               .kind = LIGHT_SPOT,
+                               .radiance = s->intensity,
+                               .axis = s->axis,
+                               .complement_start = static_cast<float>(1 - s->cos_falloff_start),
+                               .complement_width = static_cast<float>(1 - s->cos_total_width)});
+            powers.push_back(mean(s->intensity) * 2 * pi *
+                             (1 - (s->cos_falloff_start + s->cos_total_width) / 2));
+        }
+    }
+    for (const Emitter& e : emitters_) {
+        const Shape& shape = *shape_list_[primitives_[e.primitive].kind_and_shape & SHAPE_MASK];
+        const bool two_sided = scene_.area_lights[shape.area_light].two_sided;
+        records.push_back({.kind = two_sided ? LIGHT_AREA_TWO_SIDED : LIGHT_AREA, .radiance = e.radiance, .primitive = e.primitive});
+        powers.push_back(e.power);
+    }
+    const std::vector<AliasCell> cells = make_alias_table(powers);
+    std::vector<AliasRecord> table;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].probability = static_cast<float>(cells[i].probability);
+        table.push_back({.threshold = static_cast<float>(cells[i].threshold), .alias = cells[i].alias});
+    }
+    tables_.push.alias_table = append(table, "light choice");
+    return records;
+}
+
+void Packer::pack_geometry() {
+    collect_emitters();
+    const std::vector<LightRecord> light_records = lights();
+    const auto first_area_light = static_cast<std::uint32_t>(light_records.size() - std::min(light_records.size(), emitters_.size()));
+    for (std::uint32_t i = 0; i < emitters_.size() && !light_records.empty(); ++i)
+        primitives_[emitters_[i].primitive].light = first_area_light + i;
+    tables_.primitive_count = primitives_.size();
+    tables_.push.primitives = append(primitives_, "primitives");
+    tables_.push.nodes = append(nodes_, "hierarchy");
+    tables_.push.vertex_normals = append(vertex_normals_, "vertex normals");
+    tables_.push.quadrics = append(quadrics_, "quadrics");
+    tables_.push.instances = append(instances_, "instances");
+    tables_.push.light_count = static_cast<std::uint32_t>(light_records.size());
+    tables_.push.lights = append(light_records, "lights");
+}
+
+SceneTables Packer::pack() {
+    append(std::vector{camera()}, "camera");
+    tables_.push.filter_table = append(filter_table(), "pixel filter");
+    volumes_.emplace(scene_, render_from_world_, [this](const std::vector<glm::uvec4>& table, const char* name) {
+        return append(table, name);
+    });
+    tables_.push.blackbody =
+        effects_.features.has_temperature ? append(make_blackbody_table(), "black body") : NONE;
+    if (effects_.region) {
+        const Region& r = *effects_.region;
+        RegionRecord record{};
+        const glm::dmat4 world_from_render = glm::inverse(render_from_world_);
+        record.unit_from_world = make_affine(r.unit_from_world * world_from_render);
+        record.lower = glm::vec3(r.lower - origin_);
+        record.upper = glm::vec3(r.upper - origin_);
+        record.medium = medium_word(r.medium);
+        tables_.push.region = append(std::vector{record}, "region");
+        bounds_ = {record.lower, record.upper};
+    }
+    if (effects_.features.geometry == GEOMETRY_BVH) {
+        tables_.push.shapes = append(shapes(), "shapes");
+        build_geometry();
+    }
+    pack_geometry();
+    tables_.push.media = append(volumes_->take_records(), "media");
+    tables_.voxels = volumes_->take_voxels();
+    const Film& film = scene_.film;
+    tables_.push.seed = {static_cast<std::uint32_t>(scene_.seed), static_cast<std::uint32_t>(scene_.seed >> 32)};
+    tables_.push.width = static_cast<std::uint32_t>(film.bounds.width());
+    tables_.push.pixel_count = tables_.push.width * static_cast<std::uint32_t>(film.bounds.height());
+    tables_.push.x0 = static_cast<std::uint32_t>(film.bounds.x0);
+    tables_.push.y0 = static_cast<std::uint32_t>(film.bounds.y0);
+    tables_.push.full_width = static_cast<std::uint32_t>(film.width);
+    tables_.push.max_depth = static_cast<std::uint32_t>(scene_.integrator.max_depth);
+    return std::move(tables_);
+}
+
+} // namespace
+
+SceneTables make_scene_tables(const Scene& scene, const Effects& effects) {
+    return Packer(scene, effects).pack();
+}
+
+} // namespace tyndall

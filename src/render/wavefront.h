@@ -1,0 +1,73 @@
+/// The wavefront on the device: its buffers, its stages, and the order in which they run.
+#pragma once
+
+#include "gpu/commands.h"
+#include "render/effects.h"
+#include "render/scene_tables.h"
+
+#include <memory>
+#include <optional>
+
+namespace tyndall {
+
+/// How the work is cut up. None of it changes the image.
+struct Tuning {
+    std::uint32_t slots = 0;          ///< Paths in flight; 0: chosen for device and scene.
+    std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
+    std::uint32_t workgroup_size = 0; ///< 0: chosen.
+};
+
+class Wavefront {
+  public:
+    /// Uploads the tables, allocates state and film, builds the stages that the effects call for.
+    Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
+              const Tuning& tuning);
+
+    /// Forgets paths in flight, so that batches first_batch ... first_batch + batch_count - 1 can be rendered,
+    /// of which samples first_sample <= s < end_sample. The film is kept, or zeroed with `clear_film`.
+    void begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
+                     std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film);
+
+    /// Records `rounds` rounds; each advances every path by at least one event. The first round is timed:
+    /// `clock` has one mark more than there are stages.
+    void record_rounds(gpu::Commands& commands, std::uint32_t rounds, const gpu::Timestamps& clock) const;
+    /// Records the copy of the control block into `to` (host visible).
+    void record_readback(gpu::Commands& commands, const gpu::Buffer& to) const;
+
+    /// The control block as it is.
+    shared::Control read_control() const;
+    /// Copies film texels of the pixels [first, first + count) to the host.
+    void read_film(std::uint32_t first, std::uint32_t count, std::vector<glm::vec4>& texels) const;
+
+    const Tuning& tuning() const { return tuning_; }
+    const shared::Features& features() const { return features_; }
+    std::vector<std::pair<std::string, std::uint64_t>> memory() const;
+    /// In the order in which they run.
+    std::vector<std::string> stage_names() const;
+
+  private:
+    void build_stages(const Effects& effects);
+
+    const gpu::Context* context_;
+    shared::Features features_;
+    Tuning tuning_;
+    shared::PushConstants push_;
+    std::vector<std::pair<std::string, std::uint64_t>> table_bytes_;
+    gpu::Buffer scene_, paths_, batches_, film_, voxels_, control_, queues_;
+    std::optional<gpu::Descriptors> descriptors_;
+    // Without a hierarchy:
+    std::optional<gpu::Stage> walk_region_;
+    // With one; those that the effects call for:
+    std::optional<gpu::Stage> trace_segment_;
+    std::optional<gpu::Stage> track_medium_;
+    std::optional<gpu::Stage> shade_volume_;
+    std::optional<gpu::Stage> shade_surface_;
+    std::optional<gpu::Stage> cross_interface_;
+    std::optional<gpu::Stage> trace_shadow_;
+    std::optional<gpu::Stage> next_sample_;
+    // Always:
+    std::optional<gpu::Stage> schedule_;
+    std::optional<gpu::Stage> update_film_;
+};
+
+} // namespace tyndall

@@ -1,0 +1,34 @@
+/// Film, camera, filter, sampler, integrator and accelerator from their parameters.
+///
+/// After an error the value has defaults where its parameters were wrong.
+#pragma once
+
+#include "scene/parameters.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tyndall {
+
+/// Kind, lens and window; the transformation and the medium are the caller's.
+Camera read_camera(const std::string& type, Parameters& parameters);
+
+Film read_film(const std::string& type, Parameters& parameters);
+
+PixelFilter read_pixel_filter(const std::string& type, Parameters& parameters);
+
+Integrator read_integrator(const std::string& type, Parameters& parameters);
+
+/// What is left of a sampler: Tyndall has one, independent random numbers.
+struct SamplerSettings {
+    int samples_per_pixel = 16;
+    std::optional<std::uint64_t> seed;
+};
+SamplerSettings read_sampler(const std::string& type, Parameters& parameters);
+
+/// Checks only: Tyndall has one accelerator.
+void read_accelerator(const std::string& type, Parameters& parameters);
+
+} // namespace tyndall

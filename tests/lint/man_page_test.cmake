@@ -1,0 +1,42 @@
+# Every option and command of the program's help is in the man page, and the other way round.
+
+# Sets `out` to the sorted set of long options in the text.
+function(long_options text out)
+  string(REGEX MATCHALL "--[a-z][a-z-]*" options "${text}")
+  list(REMOVE_DUPLICATES options)
+  list(SORT options)
+  set(${out} ${options} PARENT_SCOPE)
+endfunction()
+
+function(help out)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+help(text)
+string(REGEX MATCH "Subcommands:\n(.*)" _ "${text}")
+string(REGEX MATCHALL "\n  [a-z]+" commands "\n${CMAKE_MATCH_1}")
+list(TRANSFORM commands STRIP)
+list(LENGTH commands count)
+if(count LESS 5)
+  message(FATAL_ERROR "cannot read the commands from the help: ${commands}")
+endif()
+
+file(READ ${MAN_PAGE} page)
+string(REPLACE "\\-" "-" page "${page}")
+foreach(command ${commands})
+  help(more ${command})
+  string(APPEND text "${more}")
+  if(NOT page MATCHES "\n.B ${command}\n" OR NOT page MATCHES "\n.B tyndall ${command}\n")
+    message(SEND_ERROR "the man page does not describe the command ${command}")
+  endif()
+endforeach()
+
+long_options("${text}" of_help)
+long_options("${page}" of_page)
+if(NOT of_help STREQUAL of_page)
+  message(SEND_ERROR "options of the help:\n  ${of_help}\nof the man page:\n  ${of_page}")
+endif()
+if(NOT page MATCHES "Tyndall [0-9]+\\.[0-9]+\\.[0-9]+")
+  message(SEND_ERROR "the man page does not state the version")
+endif()

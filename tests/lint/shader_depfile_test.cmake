@@ -1,0 +1,57 @@
+# An edit of a header that a shader includes, directly or through another header, rebuilds that shader
+# and no other; an edit of nothing rebuilds nothing; a shader with an error fails the build.
+
+set(source ${SCRATCH}/source)
+set(build ${SCRATCH}/build)
+file(REMOVE_RECURSE ${SCRATCH})
+file(WRITE ${source}/CMakeLists.txt "
+cmake_minimum_required(VERSION 3.25)
+project(depfiles NONE)
+include(${ROOT}/cmake/Shaders.cmake)
+tyndall_shaders(spirv uses.comp plain.comp)
+add_custom_target(everything ALL DEPENDS spirv_headers)
+")
+set(head "#version 460\n#extension GL_GOOGLE_include_directive : require\n")
+set(body "layout(binding = 0) buffer A { uint a; };\nvoid main() { a = VALUE; }\n")
+file(WRITE ${source}/uses.comp "${head}#include \"outer.h\"\n${body}")
+file(WRITE ${source}/plain.comp "${head}#define VALUE 7\n${body}")
+file(WRITE ${source}/shaders/outer.h "#include \"inner.h\"\n")
+file(WRITE ${source}/shaders/inner.h "#define VALUE 11\n")
+
+function(build_and_compare expected_uses expected_plain)
+  foreach(name uses plain)
+    set(before_${name} "")
+    if(EXISTS ${build}/spirv/spirv/${name}.h)
+      file(TIMESTAMP ${build}/spirv/spirv/${name}.h before_${name} "%s%f")
+    endif()
+  endforeach()
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} OUTPUT_VARIABLE text
+                  ERROR_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  foreach(name uses plain)
+    file(TIMESTAMP ${build}/spirv/spirv/${name}.h after "%s%f")
+    set(is built)
+    if(after STREQUAL before_${name})
+      set(is kept)
+    endif()
+    if(NOT is STREQUAL expected_${name})
+      message(SEND_ERROR "${name}: ${is}, expected ${expected_${name}}\n${text}")
+    endif()
+  endforeach()
+endfunction()
+
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${source} -B ${build}
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+build_and_compare(built built)
+build_and_compare(kept kept)
+file(WRITE ${source}/shaders/inner.h "#define VALUE 12\n")
+build_and_compare(built kept)
+build_and_compare(kept kept)
+file(TOUCH ${source}/plain.comp)
+build_and_compare(kept built)
+
+file(WRITE ${source}/shaders/inner.h "#define VALUE no_such_name\n")
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} OUTPUT_VARIABLE text
+                ERROR_VARIABLE text RESULT_VARIABLE status)
+if(status EQUAL 0 OR NOT text MATCHES "no_such_name")
+  message(SEND_ERROR "a shader error did not fail the build, or was not shown:\n${text}")
+endif()
