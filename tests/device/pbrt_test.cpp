@@ -83,7 +83,7 @@ TEST_F(PbrtTest, GreyCubeHasTheSameMeanAndNoStructureIsLeft) {
     absorbing.media[0].sigma_a *= 1.02;
     EXPECT_GT(compare_blocks(render(absorbing, 1024), pbrts).mean, kReject);
     Scene blunt = scene;
-    blunt.media[0].phase.g = 0.4;
+    blunt.media[0].phases[0].g = 0.4;
     EXPECT_GT(compare_blocks(render(blunt, 1024), pbrts).worst, kReject);
 }
 
