@@ -101,7 +101,7 @@ std::vector<stats::PixelSums> reference_batches(const Scene& scene, std::uint32_
 }
 
 void expect_agreement(const std::vector<stats::PixelSums>& batches,
-                      const std::vector<stats::PixelSums>& expected, int width) {
+                      const std::vector<stats::PixelSums>& expected, int width, double teeth) {
     const stats::Agreement same = stats::test_agreement(batches, expected, width);
     EXPECT_TRUE(same.agrees) << "p = " << same.p_value << "; means " << same.mean_a[0] << ' '
                              << same.mean_a[1] << ' ' << same.mean_a[2] << ", expected "
@@ -111,14 +111,14 @@ void expect_agreement(const std::vector<stats::PixelSums>& batches,
     auto brighter = batches;
     for (stats::PixelSums& batch : brighter)
         for (glm::dvec4& sum : batch)
-            sum = glm::dvec4(1.01 * glm::dvec3(sum), sum.w);
+            sum = glm::dvec4((1 + teeth) * glm::dvec3(sum), sum.w);
     EXPECT_FALSE(stats::test_agreement(brighter, expected, width).agrees)
-        << "no teeth: 1 % more light went unseen";
+        << "no teeth: " << 100 * teeth << " % more light went unseen";
 }
 
-void expect_agreement(const Scene& scene, std::uint32_t samples) {
+void expect_agreement(const Scene& scene, std::uint32_t samples, double teeth) {
     expect_agreement(device_batches(scene, samples), reference_batches(scene, samples),
-                     scene.film.bounds.width());
+                     scene.film.bounds.width(), teeth);
 }
 
 std::vector<Rgb> colors_of(const Image& film) {

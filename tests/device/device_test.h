@@ -49,11 +49,11 @@ void expect_mean(const support::Estimate& estimate, double truth, double wrong, 
 std::vector<stats::PixelSums> device_batches(const Scene& scene, std::uint32_t samples);
 std::vector<stats::PixelSums> reference_batches(const Scene& scene, std::uint32_t samples);
 
-/// Batches with the same random numbers agree; were the first 1 % brighter, they would not.
+/// Batches with the same random numbers agree; were the first brighter by `teeth`, they would not.
 void expect_agreement(const std::vector<stats::PixelSums>& batches,
-                      const std::vector<stats::PixelSums>& expected, int width);
+                      const std::vector<stats::PixelSums>& expected, int width, double teeth = 0.01);
 /// The device agrees with the reference.
-void expect_agreement(const Scene& scene, std::uint32_t samples);
+void expect_agreement(const Scene& scene, std::uint32_t samples, double teeth = 0.01);
 
 /// Pixels of a film as colours, row by row.
 std::vector<Rgb> colors_of(const Image& film);

@@ -114,7 +114,7 @@ TEST_F(PbrtTest, ChromaticBallHasTheSameMeans) {
 TEST_F(PbrtTest, FogRoomHasTheSameMeans) {
     const Scene scene = scene_of("fog-room");
     const Image pbrts = image_of("fog-room");
-    const Image ours = render(scene, 64);
+    const Image ours = render(scene, 96);
     // The tolerance is 4.5 standard errors at least.
     const support::Estimate mean = mean_of(ours);
     for (int c = 0; c < 3; ++c)

@@ -20,10 +20,11 @@ Kernel::Kernel(const char* name, std::span<const std::uint32_t> spirv, std::uint
       output_(support::gpu_context(), "output", std::uint64_t{output_texels} * 16, kTexels),
       unused_paths_(support::gpu_context(), "paths", 16, kTexels),
       unused_batches_(support::gpu_context(), "batches", 16, kTexels),
+      unused_voxels_(support::gpu_context(), "voxels", 16, kTexels),
       control_(support::gpu_context(), "control", sizeof(shared::Control), {}),
       queues_(support::gpu_context(), "queues", 16, {}),
       descriptors_(support::gpu_context(),
-                   {{&input_, &unused_paths_, &unused_batches_, &output_}, &control_, &queues_},
+                   {{&input_, &unused_paths_, &unused_batches_, &output_, &unused_voxels_}, &control_, &queues_},
                    sizeof(shared::PushConstants)),
       stage_(support::gpu_context(), descriptors_, name, spirv,
              with_fallback(features, descriptors_)) {}
