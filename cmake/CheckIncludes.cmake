@@ -1,7 +1,8 @@
 # cmake -DTREE=folder -P CheckIncludes.cmake
 # Fails, naming each place, on an include that the layering forbids:
 #
-#   core <- volume, phase <- scene; core <- image, gpu; all <- render, reference, stats <- cli     shared <- lib <- wavefront
+#   core <- volume, phase <- scene    core <- image, gpu    those <- render, reference, stats <- cli
+#   shared <- lib <- wavefront
 #
 # A folder may include what its line below matches, and system headers. The folders that may include
 # a library's headers stand beside that library.
