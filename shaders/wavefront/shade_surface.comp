@@ -6,11 +6,12 @@
 //
 //   SURFACE queue -> ray, radiance, SHADOW | ENDED queue
 
-/// Emission towards where the path came from, weighted against light sampling from its last vertex, which
-/// is `distance` away.
+/// Emission towards where the path came from, weighted against light sampling from its last vertex,
+/// which is `distance` away.
 vec3 emitted(Path p, SurfacePoint s, ShapeRecord shape, float distance) {
     if ((shape.flags & SHAPE_EMITS) == 0u) return vec3(0);
-    if (!emits_towards((shape.flags & SHAPE_TWO_SIDED) != 0u, s.normal, -p.direction)) return vec3(0);
+    if (!emits_towards((shape.flags & SHAPE_TWO_SIDED) != 0u, s.normal, -p.direction))
+        return vec3(0);
     float mis = 1.0;
     if (p.pdf > 0.0) {
         const vec3 from = s.position - distance * p.direction;

@@ -1,8 +1,8 @@
 /// Scalar fields on voxels: what VDB files, uniformgrid media and clouds become.
 ///
-/// A grid lives in index space: voxel (i, j, k) has its centre at the integer point (i, j, k), and values
-/// between centres are trilinear. Space is cut into bricks of 8 x 8 x 8 voxels; bricks without a value other than
-/// 0 are not stored. Everything outside of the stored bricks is 0.
+/// A grid lives in index space: voxel (i, j, k) has its centre at the integer point (i, j, k), and
+/// values between centres are trilinear. Space is cut into bricks of 8 x 8 x 8 voxels; bricks
+/// without a value other than 0 are not stored. Everything outside of the stored bricks is 0.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ struct Grid {
 
 /// Upper bounds of a field over cubic cells of index space, for tracking.
 ///
-/// Cell c covers the points lower + size * c <= index < lower + size * (c + 1). Its bound is >= every
-/// trilinear value inside, so voxels up to one beyond the cell count.
+/// Cell c covers the points lower + size * c <= index < lower + size * (c + 1). Its bound is >=
+/// every trilinear value inside, so voxels up to one beyond the cell count.
 struct MajorantGrid {
     glm::ivec3 lower{0};
     int size = 8; ///< Voxels along an edge.

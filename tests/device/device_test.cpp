@@ -31,9 +31,13 @@ const gpu::Context& context() {
     return *shared_context();
 }
 
-void close_context() { shared_context().reset(); }
+void close_context() {
+    shared_context().reset();
+}
 
-void DeviceTest::SetUp() { messages_before_ = context().validation_messages(); }
+void DeviceTest::SetUp() {
+    messages_before_ = context().validation_messages();
+}
 
 void DeviceTest::TearDown() {
     if (!shared_context()) return; // SetUp has failed
@@ -73,7 +77,8 @@ support::Estimate mean_of(const Scene& scene, std::uint32_t samples) {
 
 void expect_mean(const support::Estimate& estimate, double truth, double wrong, int channel) {
     EXPECT_LT(estimate.z(truth, channel), support::pass)
-        << estimate.mean[channel] << " +- " << estimate.standard_error[channel] << ", not " << truth;
+        << estimate.mean[channel] << " +- " << estimate.standard_error[channel] << ", not "
+        << truth;
     EXPECT_GT(estimate.z(wrong, channel), support::reject)
         << "no teeth: " << estimate.mean[channel] << " +- " << estimate.standard_error[channel]
         << " could be " << wrong;
@@ -128,7 +133,9 @@ std::vector<Rgb> colors_of(const Image& film) {
     return colors;
 }
 
-std::string source_folder() { return TYNDALL_TEST_SOURCES; }
+std::string source_folder() {
+    return TYNDALL_TEST_SOURCES;
+}
 
 void set_size(Scene& scene, int width, int height) {
     scene.film.width = width;

@@ -28,7 +28,9 @@ Rgb mean_color(const Image& image) {
 /// pbrt's variance per sample of a green pixel of the grey cube. Its absorption ends paths, so a
 /// path brings 1 or 0 with the pixel's mean m: m (1 - m). Wavelength sampling adds 0.001 (what the
 /// pixels beside the cube scatter by).
-double pbrt_variance(double mean) { return mean * (1 - mean) + 0.001; }
+double pbrt_variance(double mean) {
+    return mean * (1 - mean) + 0.001;
+}
 constexpr double kPbrtSamples = 4096;
 
 /// How two pictures of the grey cube differ, in standard errors.

@@ -24,7 +24,9 @@ Kernel::Kernel(const char* name, std::span<const std::uint32_t> spirv, std::uint
       control_(support::gpu_context(), "control", sizeof(shared::Control), {}),
       queues_(support::gpu_context(), "queues", 16, {}),
       descriptors_(support::gpu_context(),
-                   {{&input_, &unused_paths_, &unused_batches_, &output_, &unused_voxels_}, &control_, &queues_},
+                   {{&input_, &unused_paths_, &unused_batches_, &output_, &unused_voxels_},
+                    &control_,
+                    &queues_},
                    sizeof(shared::PushConstants)),
       stage_(support::gpu_context(), descriptors_, name, spirv,
              with_fallback(features, descriptors_)) {}
