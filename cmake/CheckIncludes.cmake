@@ -1,7 +1,7 @@
 # cmake -DTREE=folder -P CheckIncludes.cmake
 # Fails, naming each place, on an include that the layering forbids:
 #
-#   core <- scene, image, gpu <- render, reference, stats <- cli     shared <- lib <- wavefront
+#   core <- volume <- scene; core <- image, gpu; scene <- render, reference; stats <- cli     shared <- lib <- wavefront
 #
 # A folder may include what its line below matches, and system headers. The folders that may include
 # a library's headers stand beside that library.
@@ -9,7 +9,9 @@ cmake_minimum_required(VERSION 3.25)
 
 set(rules
   "src/core      | core/"
-  "src/scene     | core/ scene/"
+  "src/volume    | core/ volume/"
+  "src/phase     | core/ phase/"
+  "src/scene     | core/ scene/ volume/ phase/"
   "src/image     | core/ image/"
   "src/gpu       | core/ gpu/ shared/bindings.h shared/features.h"
   "src/render    | core/ scene/ image/ gpu/ render/ shared/ spirv/"
