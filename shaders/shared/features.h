@@ -10,9 +10,9 @@
 TYNDALL_SHARED_BEGIN
 
 TYNDALL_CONSTANT uint GEOMETRY_NONE = 0u; // nothing to hit
-TYNDALL_CONSTANT uint GEOMETRY_BOX = 1u; // one axis-aligned box that bounds one medium in a vacuum
+TYNDALL_CONSTANT uint GEOMETRY_BOX = 1u;  // one axis-aligned box that bounds one medium in a vacuum
 TYNDALL_CONSTANT uint GEOMETRY_ELLIPSOID = 2u; // one ellipsoid, likewise
-TYNDALL_CONSTANT uint GEOMETRY_BVH = 3u; // anything
+TYNDALL_CONSTANT uint GEOMETRY_BVH = 3u;       // anything
 
 TYNDALL_CONSTANT uint PRIMITIVE_TRIANGLES = 1u;
 TYNDALL_CONSTANT uint PRIMITIVE_PATCHES = 2u;

@@ -181,7 +181,8 @@ class PathTracer::Walk {
     template<class Respond, class Leave>
     void sample_light(const dvec3& place, Respond&& respond_to, Leave&& start) {
         if (!tracer_.lights_.can_sample()) return;
-        const auto light = tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT));
+        const auto light =
+            tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT));
         if (!light) return;
         const Response response = respond_to(light->direction);
         if (response.value == Rgb(0)) return;

@@ -12,8 +12,12 @@ namespace {
 
 using namespace shared;
 
-bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
-bool is_black(const Rgb& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+bool is_grey(const Rgb& c) {
+    return c.r == c.g && c.g == c.b;
+}
+bool is_black(const Rgb& c) {
+    return c.r == 0 && c.g == 0 && c.b == 0;
+}
 
 /// Collects effects and remembers what called for each.
 class Collector {
@@ -24,7 +28,8 @@ class Collector {
 
   private:
     void add(std::string name, bool on, std::string called_for) {
-        effects_.list.push_back({std::move(name), on ? "yes" : "no", on ? std::move(called_for) : ""});
+        effects_.list.push_back(
+            {std::move(name), on ? "yes" : "no", on ? std::move(called_for) : ""});
     }
     void add_value(std::string name, std::string value, std::string called_for = "") {
         effects_.list.push_back({std::move(name), std::move(value), std::move(called_for)});
@@ -156,7 +161,8 @@ void Collector::collect_media() {
     add("spectral MIS", f.is_chromatic, chromatic_by);
     add("grids", f.densities & DENSITY_BIT_GRID, grid_by_);
     add("black body emission", f.has_temperature, temperature_by_);
-    add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE), atmosphere_by_);
+    add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE),
+        atmosphere_by_);
 }
 
 void Collector::collect_lights() {
@@ -196,9 +202,12 @@ bool Collector::is_all_grey() const {
     for (const AreaLight& a : scene_.area_lights)
         grey = grey && is_grey(a.radiance) && is_grey(a.power_radiance);
     for (const Light& light : scene_.lights) {
-        if (const auto* d = std::get_if<DistantLight>(&light.emitter)) grey = grey && is_grey(d->irradiance);
-        if (const auto* p = std::get_if<PointLight>(&light.emitter)) grey = grey && is_grey(p->intensity);
-        if (const auto* s = std::get_if<SpotLight>(&light.emitter)) grey = grey && is_grey(s->intensity);
+        if (const auto* d = std::get_if<DistantLight>(&light.emitter))
+            grey = grey && is_grey(d->irradiance);
+        if (const auto* p = std::get_if<PointLight>(&light.emitter))
+            grey = grey && is_grey(p->intensity);
+        if (const auto* s = std::get_if<SpotLight>(&light.emitter))
+            grey = grey && is_grey(s->intensity);
     }
     return grey;
 }
@@ -206,9 +215,15 @@ bool Collector::is_all_grey() const {
 void Collector::collect_camera() {
     shared::Features& f = effects_.features;
     switch (scene_.filter.kind) {
-    case PixelFilter::Kind::box: f.filter_kind = FILTER_BOX; break;
-    case PixelFilter::Kind::triangle: f.filter_kind = FILTER_TRIANGLE; break;
-    default: f.filter_kind = FILTER_TABLE; break;
+    case PixelFilter::Kind::box:
+        f.filter_kind = FILTER_BOX;
+        break;
+    case PixelFilter::Kind::triangle:
+        f.filter_kind = FILTER_TRIANGLE;
+        break;
+    default:
+        f.filter_kind = FILTER_TABLE;
+        break;
     }
     f.has_lens = scene_.camera.lens_radius > 0;
     f.has_clamp = scene_.film.max_component_value < std::numeric_limits<double>::infinity();

@@ -37,8 +37,8 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     if (tuning.run_length == 0) tuning.run_length = has_hierarchy ? 64 : 256;
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
-    const std::uint64_t most = std::uint64_t{context.limits().maxComputeWorkGroupCount[0]} *
-                               tuning.workgroup_size;
+    const std::uint64_t most =
+        std::uint64_t{context.limits().maxComputeWorkGroupCount[0]} * tuning.workgroup_size;
     tuning.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(tuning.slots, most));
     return tuning;
 }
@@ -61,16 +61,21 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     batches_ = {context, "batches", pixels * push_.window * 16, texels};
     film_ = {context, "film", pixels * FILM_TEXELS * 16, texels};
     control_ = {context, "control", sizeof(Control), {.indirect = true}};
-    queues_ = {context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
+    queues_ = {
+        context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
     const VkFormat voxel_format =
         tables.voxels.is_half ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
-    voxels_ = {context, "voxels", tables.voxels.bytes.size(), {.texels = true, .texel_format = voxel_format}};
+    voxels_ = {context,
+               "voxels",
+               tables.voxels.bytes.size(),
+               {.texels = true, .texel_format = voxel_format}};
     gpu::upload(context, scene_, std::as_bytes(std::span(tables.texels)));
     gpu::upload(context, voxels_, tables.voxels.bytes);
 
-    descriptors_.emplace(context,
-                         gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_},
-                         static_cast<std::uint32_t>(sizeof(push_)));
+    descriptors_.emplace(
+        context,
+        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_},
+        static_cast<std::uint32_t>(sizeof(push_)));
     features_.workgroup_size = tuning_.workgroup_size;
     features_.storage_fallback = descriptors_->storage_fallback();
     features_.primitives = tables.primitives;
@@ -94,7 +99,8 @@ void Wavefront::build_stages(const Effects& effects) {
     }
     trace_segment_ = make("trace_segment", trace_segment_spirv);
     next_sample_ = make("next_sample", next_sample_spirv);
-    if (features_.densities & DENSITY_BITS_TRACKED) track_medium_ = make("track_medium", track_medium_spirv);
+    if (features_.densities & DENSITY_BITS_TRACKED)
+        track_medium_ = make("track_medium", track_medium_spirv);
     if (features_.has_scattering) shade_volume_ = make("shade_volume", shade_volume_spirv);
     if (has_queue(QUEUE_SURFACE)) shade_surface_ = make("shade_surface", shade_surface_spirv);
     features_.is_rough = 0;
@@ -144,7 +150,8 @@ void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
             commands.dispatch(*stage, invocations);
             end_stage();
         };
-        const auto run_indirect = [&](const std::optional<gpu::Stage>& stage, std::uint64_t arguments) {
+        const auto run_indirect = [&](const std::optional<gpu::Stage>& stage,
+                                      std::uint64_t arguments) {
             if (!stage) return;
             commands.dispatch_indirect(*stage, control_, arguments);
             end_stage();

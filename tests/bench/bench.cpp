@@ -1,8 +1,9 @@
 /// tyndall-bench: how fast, against what, measured in one run.
 ///
-/// Every figure is CPU seconds of the whole process (a CPU driver's threads included), which other load on
-/// the machine disturbs less than wall time. "Equal error" compares CPU time times variance with pbrt-v4's
-/// CPU volpath on the same picture; its figures were taken when the yardstick printed kYardstickThen.
+/// Every figure is CPU seconds of the whole process (a CPU driver's threads included), which other
+/// load on the machine disturbs less than wall time. "Equal error" compares CPU time times variance
+/// with pbrt-v4's CPU volpath on the same picture; its figures were taken when the yardstick
+/// printed kYardstickThen.
 #include "bench/fused_cube.h"
 #include "bench/yardstick.h"
 #include "image/image.h"
@@ -33,7 +34,9 @@ constexpr std::array<PbrtFigures, 3> kPbrt{{{"homogeneous-cube", 1.59, 0.0743},
 double cpu_seconds() {
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + double(t.tv_usec) * 1e-6; };
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + double(t.tv_usec) * 1e-6;
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -100,7 +103,8 @@ void equal_error(benchmark::State& state) {
     double best = std::numeric_limits<double>::max(), yardstick = best, paths_walked = 1;
     std::uint32_t round = 0;
     for (auto _ : state) {
-        yardstick = std::min(yardstick, cpu_of([&] { paths_walked = run_yardstick(++round).paths; }));
+        yardstick =
+            std::min(yardstick, cpu_of([&] { paths_walked = run_yardstick(++round).paths; }));
         best = std::min(best, cpu_of([&] { renderer.render(0, samples); }));
     }
     const double ours = best / paths * 1e6 * variance_per_sample(renderer);

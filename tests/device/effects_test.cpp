@@ -69,7 +69,8 @@ TEST_F(EffectsTest, AUniformSkyNeedsNoShadowRays) {
 
 TEST_F(EffectsTest, AbsorptionAloneNeedsNoShadowRaysAndNoScattering) {
     Scene scene = empty_scene(8);
-    add_shape(scene, full_sphere(0.4), {.inside = add_medium(scene, Rgb(1), Rgb(0))}, translation({0, 0, 3}));
+    add_shape(scene, full_sphere(0.4), {.inside = add_medium(scene, Rgb(1), Rgb(0))},
+              translation({0, 0, 3}));
     add_shape(scene, full_sphere(0.4), {.inside = 0}, translation({1, 0, 3}));
     add_light(scene, PointLight{});
     for (const char* name : {"shade_volume", "shade_surface", "trace_shadow"})
@@ -87,7 +88,8 @@ TEST_F(EffectsTest, OneBoundaryNeedsNoHierarchy) {
         Shape& box = scene.shapes[0];
         if (change == 0) box.reverse_orientation = true;
         if (change == 1) std::get<Mesh>(box.geometry).triangles.pop_back();
-        if (change == 2) box.media.outside = scene.camera.medium = add_medium(scene, Rgb(0.1), Rgb(0));
+        if (change == 2)
+            box.media.outside = scene.camera.medium = add_medium(scene, Rgb(0.1), Rgb(0));
         EXPECT_FALSE(has_stage(scene, "walk_region")) << change;
     }
 }
@@ -103,8 +105,9 @@ TEST_F(EffectsTest, ALongerWayGivesTheSamePicture) {
 
 TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene busy = busy_scene();
-    for (const char* name : {"interfaces", "surfaces", "emitting surfaces", "shading normals", "media",
-                             "scattering", "anisotropic phase", "spectral MIS", "environment", "area lights"})
+    for (const char* name :
+         {"interfaces", "surfaces", "emitting surfaces", "shading normals", "media", "scattering",
+          "anisotropic phase", "spectral MIS", "environment", "area lights"})
         EXPECT_EQ(effect(busy, name), "yes") << name;
     for (const char* name : {"instances", "emission of media", "distant lights", "point lights",
                              "spot lights", "depth of field", "radiance limit"})

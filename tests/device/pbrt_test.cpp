@@ -28,7 +28,9 @@ Rgb mean_color(const Image& image) {
 /// pbrt's variance per sample of a green pixel of the grey cube. Its absorption ends paths, so a
 /// path brings 1 or 0 with the pixel's mean m: m (1 - m). Wavelength sampling adds 0.001 (what the
 /// pixels beside the cube scatter by).
-double pbrt_variance(double mean) { return mean * (1 - mean) + 0.001; }
+double pbrt_variance(double mean) {
+    return mean * (1 - mean) + 0.001;
+}
 constexpr double kPbrtSamples = 4096;
 
 /// How two pictures of the grey cube differ, in standard errors.
@@ -114,7 +116,7 @@ TEST_F(PbrtTest, ChromaticBallHasTheSameMeans) {
 TEST_F(PbrtTest, FogRoomHasTheSameMeans) {
     const Scene scene = scene_of("fog-room");
     const Image pbrts = image_of("fog-room");
-    const Image ours = render(scene, 64);
+    const Image ours = render(scene, 96);
     // The tolerance is 4.5 standard errors at least.
     const support::Estimate mean = mean_of(ours);
     for (int c = 0; c < 3; ++c)
