@@ -3,8 +3,8 @@
 #include "lib/microfacet.glsl"
 #include "wavefront/surface.glsl"
 
-// Shades paths that stand at metal: emission, light sampling if it is rough, reflection. Two stages are built of
-// it, by is_rough.
+// Shades paths that stand at metal: emission, light sampling if it is rough, reflection. Two stages
+// are built of it, by is_rough.
 //
 //   CONDUCTOR or ROUGH_CONDUCTOR queue -> ray, radiance, SHADOW | ENDED queue
 
@@ -22,7 +22,8 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, u
         const LightSample light = sample_light(s.position, draw(p, BLOCK_LIGHT));
         float pdf;
         vec3 weight;
-        evaluate_rough_conductor(shape.eta, shape.k, shape.alpha, wo, light.direction * frame, pdf, weight);
+        evaluate_rough_conductor(shape.eta, shape.k, shape.alpha, wo, light.direction * frame, pdf,
+                                 weight);
         shade_light(slot, p, s, shape, light, pdf * weight, pdf);
     }
     const vec3 m = sample_visible_normal(wo, shape.alpha, unit_float(words.y), unit_float(words.z));

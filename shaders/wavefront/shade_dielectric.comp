@@ -3,13 +3,14 @@
 #include "lib/microfacet.glsl"
 #include "wavefront/surface.glsl"
 
-// Shades paths that stand at the boundary of a dielectric: emission, light sampling if it is rough, reflection or
-// refraction. Two stages are built of it, by is_rough.
+// Shades paths that stand at the boundary of a dielectric: emission, light sampling if it is rough,
+// reflection or refraction. Two stages are built of it, by is_rough.
 //
 //   DIELECTRIC or ROUGH_DIELECTRIC queue -> ray, radiance, SHADOW | ENDED queue
 
-/// Where channels are refracted differently, the path goes on in its hero channel alone, of which it is a fair
-/// sample: the others would have made it with the ratios r (lib/medium.glsl), and can no more.
+/// Where channels are refracted differently, the path goes on in its hero channel alone, of which
+/// it is a fair sample: the others would have made it with the ratios r (lib/medium.glsl), and can
+/// no more.
 void disperse(inout Path p, vec3 eta) {
     if (has_dispersion == 0u || (eta.x == eta.y && eta.y == eta.z)) return;
     const vec3 hero = vec3(equal(uvec3(p.hero), uvec3(0u, 1u, 2u)));
@@ -36,7 +37,8 @@ void scatter_smooth(inout Path p, SurfacePoint s, ShapeRecord shape, float eta, 
 }
 
 /// Microfacets that are such windows.
-void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, float eta, uvec4 words) {
+void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, float eta,
+                   uvec4 words) {
     const mat3 frame = frame_towards(s, p.direction);
     const vec3 wo = towards_origin(frame, p.direction);
     const Boundary boundary = make_boundary(eta, dot(p.direction, s.shading) <= 0.0);
@@ -52,12 +54,14 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, f
     const float f = fresnel_dielectric(boundary, c);
     const bool reflects = unit_float(light_words.w) < f;
     const vec3 wi = reflects ? reflect_about(wo, m, c) : refract_through(boundary, wo, m, c);
-    if (reflects ? wi.z <= 0.0 : wi.z >= 0.0) { // facets that face the other way send it into the surface
+    if (reflects ? wi.z <= 0.0
+                 : wi.z >= 0.0) { // facets that face the other way send it into the surface
         p.status = STATUS_ENDED;
         return;
     }
     p.throughput *= rough_dielectric_weight(boundary, shape.alpha, wo, wi);
-    leave(p, s, shape, normalize(frame * wi), rough_dielectric_pdf(boundary, shape.alpha, wo, m, c, f, reflects));
+    leave(p, s, shape, normalize(frame * wi),
+          rough_dielectric_pdf(boundary, shape.alpha, wo, m, c, f, reflects));
 }
 
 void main() {

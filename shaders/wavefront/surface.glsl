@@ -1,14 +1,16 @@
-// What the stages that shade surfaces share: how a path arrives, what lights add, and how it leaves.
+// What the stages that shade surfaces share: how a path arrives, what lights add, and how it
+// leaves.
 #ifndef TYNDALL_SURFACE_GLSL
 #define TYNDALL_SURFACE_GLSL
 
 #include "wavefront/interact.glsl"
 
-/// Emission towards where the path came from, weighted against light sampling from its last vertex, which
-/// is `distance` away.
+/// Emission towards where the path came from, weighted against light sampling from its last vertex,
+/// which is `distance` away.
 vec3 emitted(Path p, SurfacePoint s, ShapeRecord shape, float distance) {
     if ((shape.flags & SHAPE_EMITS) == 0u) return vec3(0);
-    if (!emits_towards((shape.flags & SHAPE_TWO_SIDED) != 0u, s.normal, -p.direction)) return vec3(0);
+    if (!emits_towards((shape.flags & SHAPE_TWO_SIDED) != 0u, s.normal, -p.direction))
+        return vec3(0);
     float mis = 1.0;
     if (p.pdf > 0.0) {
         const vec3 from = s.position - distance * p.direction;
@@ -32,16 +34,19 @@ void arrive(uint slot, out Path p, out SurfacePoint s, out ShapeRecord shape) {
         p.radiance += p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t));
 }
 
-/// Sends off the shadow ray to a sampled light. `response` is the value of the BSDF times the cosine for the
-/// light's direction, `pdf` the density with which the surface itself would have drawn it.
-void shade_light(uint slot, Path p, SurfacePoint s, ShapeRecord shape, LightSample light, vec3 response, float pdf) {
+/// Sends off the shadow ray to a sampled light. `response` is the value of the BSDF times the
+/// cosine for the light's direction, `pdf` the density with which the surface itself would have
+/// drawn it.
+void shade_light(uint slot, Path p, SurfacePoint s, ShapeRecord shape, LightSample light,
+                 vec3 response, float pdf) {
     const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
     light.radiance *= p.throughput * (response * mis);
     cast_shadow_ray(slot, leave_surface(s, light.direction),
                     medium_beyond(shape, s, light.direction, p.medium), light);
 }
 
-/// Lets the path leave along a direction that was drawn with density `pdf`; 0: that lights could not match.
+/// Lets the path leave along a direction that was drawn with density `pdf`; 0: that lights could
+/// not match.
 void leave(inout Path p, SurfacePoint s, ShapeRecord shape, vec3 direction, float pdf) {
     p.direction = direction;
     p.pdf = pdf;
@@ -68,6 +73,8 @@ mat3 frame_towards(SurfacePoint s, vec3 direction) {
     return frame;
 }
 /// Where the path comes from, in that frame: z >= 0.
-vec3 towards_origin(mat3 frame, vec3 direction) { return -direction * frame; }
+vec3 towards_origin(mat3 frame, vec3 direction) {
+    return -direction * frame;
+}
 
 #endif

@@ -41,7 +41,9 @@ class Collector {
             for (const Shape& shape : scene_.objects[instance.object].shapes)
                 visit(shape);
     }
-    bool has_queue(std::uint32_t queue) const { return effects_.features.surface_queues >> queue & 1u; }
+    bool has_queue(std::uint32_t queue) const {
+        return effects_.features.surface_queues >> queue & 1u;
+    }
     void collect_material(const Material& material);
     void collect_geometry();
     void collect_density(const Medium& medium, const std::string& by);
@@ -64,8 +66,8 @@ std::string place(const char* what, const SourceLocation& where) {
 void Collector::collect_material(const Material& material) {
     shared::Features& f = effects_.features;
     if (material.kind == Material::Kind::thin_dielectric) f.has_thin_panes = 1;
-    const bool is_dielectric =
-        material.kind == Material::Kind::dielectric || material.kind == Material::Kind::thin_dielectric;
+    const bool is_dielectric = material.kind == Material::Kind::dielectric ||
+                               material.kind == Material::Kind::thin_dielectric;
     if (is_dielectric && !is_grey(material.eta))
         f.has_dispersion = 1, dispersion_by_ = place("material", material.where);
 }
@@ -87,7 +89,7 @@ void Collector::collect_geometry() {
         if (shape.area_light >= 0) f.has_emitters = 1, emitter_by = place("shape", shape.where);
     });
     f.has_interfaces = has_queue(QUEUE_INTERFACE);
-    f.geometry = effects_.region                                      ? effects_.region->geometry
+    f.geometry = effects_.region                                     ? effects_.region->geometry
                  : scene_.shapes.empty() && scene_.instances.empty() ? GEOMETRY_NONE
                                                                      : GEOMETRY_BVH;
     constexpr std::array<const char*, 4> names{"nothing", "one box", "one ellipsoid", "hierarchy"};
@@ -127,7 +129,8 @@ void Collector::collect_media() {
     shared::Features& f = effects_.features;
     f.densities = f.has_rgb_grids = f.has_temperature = 0;
     f.has_media = f.has_scattering = f.has_emission = f.is_anisotropic = 0;
-    f.is_chromatic = f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
+    f.is_chromatic =
+        f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
     std::string media_by, scattering_by, emission_by, anisotropic_by, chromatic_by = dispersion_by_;
     std::vector<bool> used(scene_.media.size(), false);
     const auto use = [&](int medium) {
@@ -249,17 +252,23 @@ Effects Collector::collect() {
 std::uint32_t queue_of(const Material& material) {
     const bool is_rough = material.alpha >= 1e-3;
     switch (material.kind) {
-    case Material::Kind::interface: return QUEUE_INTERFACE;
-    case Material::Kind::diffuse: return QUEUE_SURFACE;
-    case Material::Kind::thin_dielectric: return QUEUE_DIELECTRIC;
+    case Material::Kind::interface:
+        return QUEUE_INTERFACE;
+    case Material::Kind::diffuse:
+        return QUEUE_SURFACE;
+    case Material::Kind::thin_dielectric:
+        return QUEUE_DIELECTRIC;
     case Material::Kind::dielectric:
         // The facets of a boundary that does not bend light do nothing.
         return is_rough && material.eta != Rgb(1) ? QUEUE_ROUGH_DIELECTRIC : QUEUE_DIELECTRIC;
-    case Material::Kind::conductor: return is_rough ? QUEUE_ROUGH_CONDUCTOR : QUEUE_CONDUCTOR;
+    case Material::Kind::conductor:
+        return is_rough ? QUEUE_ROUGH_CONDUCTOR : QUEUE_CONDUCTOR;
     }
     return QUEUE_SURFACE;
 }
 
-Effects compute_effects(const Scene& scene) { return Collector(scene).collect(); }
+Effects compute_effects(const Scene& scene) {
+    return Collector(scene).collect();
+}
 
 } // namespace tyndall

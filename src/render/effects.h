@@ -40,7 +40,8 @@ struct Effects {
     std::vector<Effect> list;
 };
 
-/// QUEUE_*: where paths wait that stand at a surface of the material. Smooth is what pbrt takes for it.
+/// QUEUE_*: where paths wait that stand at a surface of the material. Smooth is what pbrt takes for
+/// it.
 std::uint32_t queue_of(const Material& material);
 
 /// @param scene  with the command line's choices applied (integrator, depth).

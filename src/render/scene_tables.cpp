@@ -170,7 +170,8 @@ std::vector<ShapeRecord> Packer::shapes() {
         ShapeRecord record{};
         if (material.kind == Material::Kind::interface) record.flags |= SHAPE_INTERFACE;
         if (material.kind == Material::Kind::thin_dielectric) record.flags |= SHAPE_THIN;
-        if (shape->media.is_transition() && effects_.features.has_media) record.flags |= SHAPE_TRANSITION;
+        if (shape->media.is_transition() && effects_.features.has_media)
+            record.flags |= SHAPE_TRANSITION;
         if (shape->area_light >= 0) {
             record.flags |= SHAPE_EMITS;
             if (scene_.area_lights[shape->area_light].two_sided) record.flags |= SHAPE_TWO_SIDED;

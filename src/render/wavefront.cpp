@@ -90,7 +90,9 @@ void Wavefront::build_stages(const Effects& effects) {
         return std::optional<gpu::Stage>(std::in_place, *context_, *descriptors_, name, spirv,
                                          features_);
     };
-    const auto has_queue = [&](std::uint32_t queue) { return features_.surface_queues >> queue & 1u; };
+    const auto has_queue = [&](std::uint32_t queue) {
+        return features_.surface_queues >> queue & 1u;
+    };
     schedule_ = make("schedule", schedule_spirv);
     update_film_ = make("update_film", update_film_spirv);
     if (features_.geometry != GEOMETRY_BVH) {
@@ -104,8 +106,10 @@ void Wavefront::build_stages(const Effects& effects) {
     if (features_.has_scattering) shade_volume_ = make("shade_volume", shade_volume_spirv);
     if (has_queue(QUEUE_SURFACE)) shade_surface_ = make("shade_surface", shade_surface_spirv);
     features_.is_rough = 0;
-    if (has_queue(QUEUE_DIELECTRIC)) shade_dielectric_ = make("shade_dielectric", shade_dielectric_spirv);
-    if (has_queue(QUEUE_CONDUCTOR)) shade_conductor_ = make("shade_conductor", shade_conductor_spirv);
+    if (has_queue(QUEUE_DIELECTRIC))
+        shade_dielectric_ = make("shade_dielectric", shade_dielectric_spirv);
+    if (has_queue(QUEUE_CONDUCTOR))
+        shade_conductor_ = make("shade_conductor", shade_conductor_spirv);
     features_.is_rough = 1;
     if (has_queue(QUEUE_ROUGH_DIELECTRIC))
         shade_rough_dielectric_ = make("shade_rough_dielectric", shade_dielectric_spirv);
