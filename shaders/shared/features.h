@@ -56,7 +56,7 @@ TYNDALL_SHARED_END
     X(10, is_chromatic, 1)        /* some medium differs between channels */                       \
     X(11, is_grey, 0)             /* nothing at all differs between channels */                    \
     X(12, has_interfaces, 1)      /* some surface is a mere boundary between media */              \
-    X(13, has_surfaces, 1)        /* some surface scatters or emits */                             \
+    X(13, surface_queues, 1023)   /* bit q: at some surface or interface, paths wait in queue q */ \
     X(14, has_emitters, 1)        /* some surface emits */                                         \
     X(15, has_shading_normals, 1) /* some mesh has vertex normals */                               \
     X(16, has_environment, 1)     /* light arrives from infinity in all directions */              \
@@ -67,7 +67,10 @@ TYNDALL_SHARED_END
     X(21, densities, 15)          /* DENSITY_BIT_* bits: how the density of media varies */        \
     X(22, has_rgb_grids, 1)       /* some grid has coefficients of its own by channel */           \
     X(23, has_temperature, 1)     /* some grid emits as a black body */                            \
-    X(24, voxels_are_half, 0)     /* voxels are 16-bit floats */
+    X(24, voxels_are_half, 0)     /* voxels are 16-bit floats */                                   \
+    X(25, is_rough, 1)       /* this stage's surfaces are rough; set by stage, not by scene */     \
+    X(26, has_thin_panes, 1) /* some smooth dielectric is a thin pane */                           \
+    X(27, has_dispersion, 1) /* some index of refraction differs between channels */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -32,6 +32,7 @@ TYNDALL_CONSTANT uint SHAPE_INTERFACE = 1u;  // no surface: only a boundary betw
 TYNDALL_CONSTANT uint SHAPE_TRANSITION = 2u; // crossing it changes the medium
 TYNDALL_CONSTANT uint SHAPE_EMITS = 4u;
 TYNDALL_CONSTANT uint SHAPE_TWO_SIDED = 8u; // emits on both sides
+TYNDALL_CONSTANT uint SHAPE_THIN = 16u;     // a thin pane of a dielectric
 
 // LightRecord::kind
 TYNDALL_CONSTANT uint LIGHT_DISTANT = 0u;
@@ -91,11 +92,15 @@ struct ShapeRecord {
     uint flags;          ///< SHAPE_*
     uint medium_inside;  ///< Against the normal.
     uint medium_outside; ///< On the side of the normal.
-    uint pad0;
-    vec3 reflectance; ///< Of a diffuse surface.
+    uint queue;          ///< QUEUE_*: where paths that stand at it wait.
+    vec3 reflectance;    ///< Of a diffuse surface.
+    float alpha;         ///< Roughness (GGX) of a dielectric or a conductor.
+    vec3 eta;            ///< Index of refraction. Dielectric: inside over outside.
+    float pad0;
+    vec3 k; ///< Absorption index of a conductor.
     float pad1;
 };
-TYNDALL_CONSTANT uint SHAPE_TEXELS = 2u;
+TYNDALL_CONSTANT uint SHAPE_TEXELS = 4u;
 
 /// One primitive, in the order of the leaves of the hierarchy.
 /// triangle: a, b, c vertices; normal and offset of its plane (normal . p = offset)
@@ -244,12 +249,16 @@ TYNDALL_CONSTANT int HEALTH_COUNT = 3;
 
 // Queues of path slots, by what waits in them. Queue q holds its slots from q * slot_count on.
 TYNDALL_CONSTANT uint QUEUE_VOLUME = 0u;    // collided in a medium
-TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a surface
+TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a diffuse surface
 TYNDALL_CONSTANT uint QUEUE_INTERFACE = 2u; // stand at a boundary between media
 TYNDALL_CONSTANT uint QUEUE_SHADOW = 3u;    // have a shadow ray to trace
 TYNDALL_CONSTANT uint QUEUE_ENDED = 4u;     // have no path, or one that has ended
 TYNDALL_CONSTANT uint QUEUE_TRACK = 5u; // fly through a medium on voxels, or a spherical atmosphere
-TYNDALL_CONSTANT uint QUEUE_COUNT = 6u;
+TYNDALL_CONSTANT uint QUEUE_DIELECTRIC = 6u; // stand at a smooth dielectric, or a thin pane
+TYNDALL_CONSTANT uint QUEUE_ROUGH_DIELECTRIC = 7u;
+TYNDALL_CONSTANT uint QUEUE_CONDUCTOR = 8u; // stand at smooth metal
+TYNDALL_CONSTANT uint QUEUE_ROUGH_CONDUCTOR = 9u;
+TYNDALL_CONSTANT uint QUEUE_COUNT = 10u;
 
 /// Arguments of vkCmdDispatchIndirect.
 struct DispatchSize {

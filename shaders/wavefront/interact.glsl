@@ -39,10 +39,8 @@ void travel(inout Path p, Medium medium, float t, bool collided) {
 /// The queue of paths that stand at the primitive; of those that escape if it is NONE.
 uint queue_of_surface(uint primitive) {
     if (primitive == NONE) return QUEUE_ENDED;
-    if (has_interfaces == 0u) return QUEUE_SURFACE;
-    if (has_surfaces == 0u) return QUEUE_INTERFACE;
-    const uint flags = fetch_scene(push.shapes + shape_of(primitive) * SHAPE_TEXELS).x;
-    return (flags & SHAPE_INTERFACE) != 0u ? QUEUE_INTERFACE : QUEUE_SURFACE;
+    if ((surface_queues & (surface_queues - 1u)) == 0u) return uint(findLSB(surface_queues));
+    return fetch_scene(push.shapes + shape_of(primitive) * SHAPE_TEXELS).w;
 }
 
 /// Counts a scattering event; false if the path has had its share, and ends.

@@ -64,7 +64,12 @@ ShapeRecord load_shape(uint index) {
     shape.flags = a.x;
     shape.medium_inside = a.y;
     shape.medium_outside = a.z;
-    shape.reflectance = colour(floats(fetch_scene(texel + 1u)));
+    shape.queue = a.w;
+    const uvec4 b = fetch_scene(texel + 1u);
+    shape.reflectance = colour(floats(b));
+    shape.alpha = uintBitsToFloat(b.w);
+    shape.eta = colour(floats(fetch_scene(texel + 2u)));
+    shape.k = colour(floats(fetch_scene(texel + 3u)));
     return shape;
 }
 

@@ -40,6 +40,10 @@ struct Effects {
     std::vector<Effect> list;
 };
 
+/// QUEUE_*: where paths wait that stand at a surface of the material. Smooth is what pbrt takes for
+/// it.
+std::uint32_t queue_of(const Material& material);
+
 /// @param scene  with the command line's choices applied (integrator, depth).
 Effects compute_effects(const Scene& scene);
 

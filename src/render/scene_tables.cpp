@@ -169,6 +169,7 @@ std::vector<ShapeRecord> Packer::shapes() {
         const Material& material = scene_.materials[shape->material];
         ShapeRecord record{};
         if (material.kind == Material::Kind::interface) record.flags |= SHAPE_INTERFACE;
+        if (material.kind == Material::Kind::thin_dielectric) record.flags |= SHAPE_THIN;
         if (shape->media.is_transition() && effects_.features.has_media)
             record.flags |= SHAPE_TRANSITION;
         if (shape->area_light >= 0) {
@@ -177,7 +178,11 @@ std::vector<ShapeRecord> Packer::shapes() {
         }
         record.medium_inside = medium_word(shape->media.inside);
         record.medium_outside = medium_word(shape->media.outside);
+        record.queue = queue_of(material);
         record.reflectance = material.reflectance;
+        record.alpha = static_cast<float>(material.alpha);
+        record.eta = material.eta;
+        record.k = material.k;
         records.push_back(record);
     }
     return records;

@@ -4,6 +4,8 @@
 #include "spirv/cross_interface.h"
 #include "spirv/next_sample.h"
 #include "spirv/schedule.h"
+#include "spirv/shade_conductor.h"
+#include "spirv/shade_dielectric.h"
 #include "spirv/shade_surface.h"
 #include "spirv/shade_volume.h"
 #include "spirv/trace_segment.h"
@@ -88,6 +90,9 @@ void Wavefront::build_stages(const Effects& effects) {
         return std::optional<gpu::Stage>(std::in_place, *context_, *descriptors_, name, spirv,
                                          features_);
     };
+    const auto has_queue = [&](std::uint32_t queue) {
+        return features_.surface_queues >> queue & 1u;
+    };
     schedule_ = make("schedule", schedule_spirv);
     update_film_ = make("update_film", update_film_spirv);
     if (features_.geometry != GEOMETRY_BVH) {
@@ -99,7 +104,17 @@ void Wavefront::build_stages(const Effects& effects) {
     if (features_.densities & DENSITY_BITS_TRACKED)
         track_medium_ = make("track_medium", track_medium_spirv);
     if (features_.has_scattering) shade_volume_ = make("shade_volume", shade_volume_spirv);
-    if (features_.has_surfaces) shade_surface_ = make("shade_surface", shade_surface_spirv);
+    if (has_queue(QUEUE_SURFACE)) shade_surface_ = make("shade_surface", shade_surface_spirv);
+    features_.is_rough = 0;
+    if (has_queue(QUEUE_DIELECTRIC))
+        shade_dielectric_ = make("shade_dielectric", shade_dielectric_spirv);
+    if (has_queue(QUEUE_CONDUCTOR))
+        shade_conductor_ = make("shade_conductor", shade_conductor_spirv);
+    features_.is_rough = 1;
+    if (has_queue(QUEUE_ROUGH_DIELECTRIC))
+        shade_rough_dielectric_ = make("shade_rough_dielectric", shade_dielectric_spirv);
+    if (has_queue(QUEUE_ROUGH_CONDUCTOR))
+        shade_rough_conductor_ = make("shade_rough_conductor", shade_conductor_spirv);
     if (features_.has_interfaces) cross_interface_ = make("cross_interface", cross_interface_spirv);
     if (effects.samples_lights) trace_shadow_ = make("trace_shadow", trace_shadow_spirv);
 }
@@ -156,6 +171,10 @@ void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
         drain(QUEUE_TRACK, track_medium_);
         drain(QUEUE_VOLUME, shade_volume_);
         drain(QUEUE_SURFACE, shade_surface_);
+        drain(QUEUE_DIELECTRIC, shade_dielectric_);
+        drain(QUEUE_ROUGH_DIELECTRIC, shade_rough_dielectric_);
+        drain(QUEUE_CONDUCTOR, shade_conductor_);
+        drain(QUEUE_ROUGH_CONDUCTOR, shade_rough_conductor_);
         drain(QUEUE_INTERFACE, cross_interface_);
         drain(QUEUE_SHADOW, trace_shadow_);
         drain(QUEUE_ENDED, next_sample_);
@@ -197,6 +216,7 @@ std::vector<std::string> Wavefront::stage_names() const {
     std::vector<std::string> names;
     for (const auto* stage :
          {&walk_region_, &trace_segment_, &track_medium_, &shade_volume_, &shade_surface_,
+          &shade_dielectric_, &shade_rough_dielectric_, &shade_conductor_, &shade_rough_conductor_,
           &cross_interface_, &trace_shadow_, &next_sample_, &schedule_, &update_film_})
         if (*stage) names.push_back((*stage)->name());
     return names;

@@ -64,6 +64,10 @@ class Wavefront {
     std::optional<gpu::Stage> track_medium_;
     std::optional<gpu::Stage> shade_volume_;
     std::optional<gpu::Stage> shade_surface_;
+    std::optional<gpu::Stage> shade_dielectric_;
+    std::optional<gpu::Stage> shade_rough_dielectric_;
+    std::optional<gpu::Stage> shade_conductor_;
+    std::optional<gpu::Stage> shade_rough_conductor_;
     std::optional<gpu::Stage> cross_interface_;
     std::optional<gpu::Stage> trace_shadow_;
     std::optional<gpu::Stage> next_sample_;

@@ -2,6 +2,7 @@
 #include "device/device_test.h"
 #include "device/test_scenes.h"
 #include "scene/reader.h"
+#include "support/materials.h"
 
 #include <algorithm>
 
@@ -103,11 +104,37 @@ TEST_F(EffectsTest, ALongerWayGivesTheSamePicture) {
     expect_agreement(device_batches(with_more, 32), device_batches(scene, 16), 16);
 }
 
+/// One stage per kind of boundary that occurs; those of other scenes are as they were.
+TEST_F(EffectsTest, OnlyBoundariesThatOccurHaveStages) {
+    const std::vector<std::string> names{"shade_dielectric", "shade_rough_dielectric",
+                                         "shade_conductor", "shade_rough_conductor"};
+    for (const std::string& name : names) {
+        EXPECT_FALSE(has_stage(busy_scene(), name));
+        EXPECT_FALSE(has_stage(plain_scene(), name));
+    }
+    for (std::size_t kind = 0; kind < names.size(); ++kind) {
+        Scene scene = plain_scene();
+        const double alpha = kind % 2 ? 0.2 : 0;
+        const int material = kind < 2 ? add_dielectric(scene, Rgb(1.5), alpha)
+                                      : add_conductor(scene, Rgb(0.2), Rgb(3), alpha);
+        scene.shapes.front().material = material; // a box that is no mere interface
+        for (const std::string& name : names)
+            EXPECT_EQ(has_stage(scene, name), name == names[kind]) << name;
+        for (const char* name : {"walk_region", "shade_surface", "cross_interface"})
+            EXPECT_FALSE(has_stage(scene, name)) << name;
+    }
+    Scene prism = plain_scene();
+    prism.shapes.front().material = add_dielectric(prism, {1.5, 1.51, 1.52});
+    EXPECT_EQ(effect(prism, "dispersion"), "yes");
+    EXPECT_EQ(effect(prism, "spectral MIS"), "yes");
+    EXPECT_EQ(effect(plain_scene(), "dispersion"), "no");
+}
+
 TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene busy = busy_scene();
     for (const char* name :
-         {"interfaces", "surfaces", "emitting surfaces", "shading normals", "media", "scattering",
-          "anisotropic phase", "spectral MIS", "environment", "area lights"})
+         {"interfaces", "diffuse surfaces", "emitting surfaces", "shading normals", "media",
+          "scattering", "anisotropic phase", "spectral MIS", "environment", "area lights"})
         EXPECT_EQ(effect(busy, name), "yes") << name;
     for (const char* name : {"instances", "emission of media", "distant lights", "point lights",
                              "spot lights", "depth of field", "radiance limit"})
@@ -120,7 +147,7 @@ TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene furnace = read_scene(source_folder() + "/scenes/furnace.pbrt");
     EXPECT_EQ(effect(furnace, "geometry"), "one ellipsoid");
     EXPECT_EQ(effect(furnace, "channels"), "1");
-    EXPECT_EQ(effect(furnace, "surfaces"), "no");
+    EXPECT_EQ(effect(furnace, "diffuse surfaces"), "no");
     EXPECT_EQ(effect(read_scene(source_folder() + "/scenes/instances.pbrt"), "instances"), "yes");
 }
 
