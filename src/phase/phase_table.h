@@ -6,15 +6,18 @@
 
 namespace tyndall {
 
-/// A phase function of three channels, each piecewise linear in mu = cos(theta) between shared nodes.
+/// A phase function of three channels, each piecewise linear in mu = cos(theta) between shared
+/// nodes.
 ///
-/// Node i of n is at theta = pi (i / (n - 1))^2, from forward to backward: fine where the forward peak is. Stored as
-/// 1 - mu, which keeps its digits there. Values are per steradian and integrate to 1 as interpolated, so that
-/// evaluation, density and inversion of the CDF are the same function exactly.
+/// Node i of n is at theta = pi (i / (n - 1))^2, from forward to backward: fine where the forward
+/// peak is. Stored as 1 - mu, which keeps its digits there. Values are per steradian and integrate
+/// to 1 as interpolated, so that evaluation, density and inversion of the CDF are the same function
+/// exactly.
 struct PhaseTable {
-    std::vector<double> complement; ///< 1 - mu, from 0 to 2.
+    std::vector<double> complement;           ///< 1 - mu, from 0 to 2.
     std::array<std::vector<double>, 3> value; ///< [1/sr], > 0 or 0
-    /// Probability of scattering by less than the node's angle: 2 pi times the integral over mu; 0 ... 1.
+    /// Probability of scattering by less than the node's angle: 2 pi times the integral over mu; 0
+    /// ... 1.
     std::array<std::vector<double>, 3> cdf;
     std::array<double, 3> mean_cosine{}; ///< Of the interpolant.
 };
