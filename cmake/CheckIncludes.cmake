@@ -26,6 +26,7 @@ set(rules
 set(libraries
   "volk.h vulkan/ | src/gpu"
   "OpenImageIO/   | src/image"
+  "openvdb/ nanovdb/ | src/volume"
   "embree         | src/render src/reference"
   "CLI/           | src/cli"
   "nlohmann/      | src/cli")
