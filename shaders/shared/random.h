@@ -19,7 +19,11 @@
 // of its own: BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A
 // real one is scattered in the next event, whose word 0 is not used.
 //
-// Step i of a shadow ray through such media, counted over all tentative collisions of the ray, uses
+// A voxel that shines, chosen as a light, uses block BLOCK_EMISSION: 0: choice of voxel, its
+// fraction being the low eight bits of words 1, 2, 3, whose upper 24 bits are the place around the
+// voxel on each axis.
+//
+// Step i of a shadow ray through such media, counted over all flights of the ray, uses
 // block BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
 #ifndef TYNDALL_RANDOM_H
 #define TYNDALL_RANDOM_H
@@ -31,6 +35,7 @@ TYNDALL_SHARED_BEGIN
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;
 TYNDALL_CONSTANT uint BLOCK_SHADOW = 2u;
+TYNDALL_CONSTANT uint BLOCK_EMISSION = 0x80000000u;
 
 // Seven rounds is the fewest that pass BigCrush with no failure (Salmon et al. 2011, "Parallel
 // Random Numbers: As Easy as 1, 2, 3", table 2); the known answers of the paper are for ten.
