@@ -19,8 +19,10 @@
 // of its own: BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A
 // real one is scattered in the next event, whose word 0 is not used.
 //
-// Step i of a shadow ray through such media, counted over all tentative collisions of the ray, uses
-// block BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
+// Flight i of a shadow ray through such media, counted over the whole ray, uses block BLOCK_SHADOW
+// + i of the event that cast it: 0: optical distance, 1: corner. A flight that leaves its medium
+// without a collision counts, too: what it has told of its optical distance must not decide about
+// the next.
 #ifndef TYNDALL_RANDOM_H
 #define TYNDALL_RANDOM_H
 

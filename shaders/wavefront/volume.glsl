@@ -211,12 +211,11 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
     vec3 result = vec3(1);
     bool collides = t < f.t_end;
     do {
-        const uvec4 words = draw(p, BLOCK_SHADOW + step);
+        const uvec4 words = draw(p, BLOCK_SHADOW + step++);
         collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
             result *= 1.0 - (tap.sigma_a + tap.sigma_s) / bound;
-            ++step;
             collides = max(result.x, max(result.y, result.z)) > 0.0 && t < f.t_end;
         }
     } while (collides);
