@@ -23,8 +23,10 @@
 // fraction being the low eight bits of words 1, 2, 3, whose upper 24 bits are the place around the
 // voxel on each axis.
 //
-// Step i of a shadow ray through such media, counted over all flights of the ray, uses
-// block BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
+// Flight i of a shadow ray through such media, counted over the whole ray, uses block BLOCK_SHADOW
+// + i of the event that cast it: 0: optical distance, 1: corner. A flight that leaves its medium
+// without a collision counts, too: what it has told of its optical distance must not decide about
+// the next.
 #ifndef TYNDALL_RANDOM_H
 #define TYNDALL_RANDOM_H
 

@@ -213,9 +213,7 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
     vec3 result = vec3(1);
     bool collides = t < f.t_end;
     do {
-        const uvec4 words = draw(p, BLOCK_SHADOW + step);
-        ++step; // for a flight that leaves, too: what is left of it must not decide about the next
-                // medium
+        const uvec4 words = draw(p, BLOCK_SHADOW + step++);
         collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
