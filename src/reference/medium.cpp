@@ -71,7 +71,7 @@ double flight_distance(const Medium& medium, int hero, std::uint32_t word) {
 Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const Segment& segment) {
     Rgb radiance(0);
     for (int c = 0; c < 3; ++c) {
-        if (medium.sigma_a[c] == 0 || medium.emission[c] == 0) continue;
+        if (throughput.beta[c] * medium.sigma_a[c] * medium.emission[c] == 0) continue;
         const double share = all_equal(medium.sigma_s)
                                  ? -std::expm1(-medium.sigma_a[c] * segment.length)
                                  : emission_integral(medium, throughput, c, segment.length);
@@ -105,6 +105,14 @@ Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Thro
     Throughput after = before;
     after.beta *= contribution / average;
     after.ratio *= probability / average;
+    return after;
+}
+
+Throughput disperse(const Throughput& before) {
+    const int hero = before.hero;
+    Throughput after{Rgb(0), Rgb(0), hero};
+    after.beta[hero] = before.beta[hero] * 3 / before.ratio[hero];
+    after.ratio[hero] = 3;
     return after;
 }
 

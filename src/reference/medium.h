@@ -53,6 +53,10 @@ Throughput after_segment(const Medium& medium, const Throughput& before, const S
 Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Throughput& before,
                            bool is_real);
 
+/// The throughput of a path that goes on in its hero channel alone: a fair sample of that channel,
+/// as the path has this hero with the probability ratio / 3.
+Throughput disperse(const Throughput& before);
+
 /// exp(-(sigma_a + sigma_s) distance) for each channel; distance may be infinite.
 Rgb transmittance(const Medium& medium, double distance);
 

@@ -37,22 +37,23 @@ inline double unit(std::uint32_t word) {
     return shared::unit_float(word);
 }
 
-/// v.x s + v.y t + v.z n for an orthonormal frame around the unit vector n (Duff et al. 2017,
-/// "Building an Orthonormal Basis, Revisited"). Their frame jumps where n.z changes its sign, so
-/// that rounding decides it for every upright wall; this one jumps at -0.75, where few normals are.
-inline dvec3 around(const dvec3& n, const dvec3& v) {
+/// An orthonormal frame (s, t, n) around the unit vector n (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited"). Theirs jumps where n.z changes its sign, so that rounding
+/// decides it for every upright wall; this one jumps at -0.75, where few normals are.
+inline dmat3 frame_around(const dvec3& n) {
     const double sign = n.z < -0.75 ? -1 : 1;
     const double a = -1 / (sign + n.z);
     const double b = n.x * n.y * a;
     const dvec3 s(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
     const dvec3 t(b, sign + n.y * n.y * a, -n.y);
-    return v.x * s + v.y * t + v.z * n;
+    return {s, t, n};
 }
 
 /// The unit vector at the azimuth 2 pi u around n whose polar angle has this sine and cosine.
 inline dvec3 direction_around(const dvec3& n, double sine, double cosine, double u) {
     const double phi = 2 * pi * u;
-    return glm::normalize(around(n, {sine * std::cos(phi), sine * std::sin(phi), cosine}));
+    return glm::normalize(frame_around(n) *
+                          dvec3(sine * std::cos(phi), sine * std::sin(phi), cosine));
 }
 
 /// Uniform on the unit disc from the unit square (Shirley and Chiu 1997).

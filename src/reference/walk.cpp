@@ -1,5 +1,6 @@
 #include "reference/walk.h"
 
+#include "reference/bsdf.h"
 #include "reference/phase.h"
 #include "reference/tracking.h"
 
@@ -21,32 +22,17 @@ double mis_weight(double density, double other_density) {
     return 1 / (1 + ratio * ratio);
 }
 
-/// What a scattering event does with light from one direction.
-struct Response {
-    Rgb value{0};       ///< Phase function, or BSDF times cosine.
-    double density = 0; ///< With which the event itself draws that direction, per solid angle.
-};
-
 Response respond(const PhaseFunction& phase, const dvec3& travel, const dvec3& to_light) {
     const double density = evaluate_phase(phase, one_minus_cosine(travel, to_light));
     return {Rgb(density), density};
-}
-
-/// pbrt's DiffuseBxDF: reflects on the side of the shading normal that the path came from.
-Response respond(const Material& material, const dvec3& normal, const dvec3& travel,
-                 const dvec3& to_light) {
-    const double cosine_out = -glm::dot(normal, travel);
-    const double cosine_in = glm::dot(normal, to_light);
-    if (!(cosine_out * cosine_in > 0)) return {};
-    const double density = std::abs(cosine_in) / pi;
-    return {material.reflectance * density, density};
 }
 
 } // namespace
 
 PathTracer::PathTracer(const Scene& scene, const Geometry& geometry, const Lights& lights)
     : scene_(scene), geometry_(geometry), lights_(lights),
-      is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey)) {
+      is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey) &&
+               std::none_of(scene.materials.begin(), scene.materials.end(), is_dispersive)) {
     if (scene.integrator.kind != Integrator::Kind::volpath) return;
     for (const Medium& medium : scene.media)
         media_.emplace_back(medium);
@@ -191,28 +177,34 @@ class PathTracer::Walk {
             at_ = leave_surface(hit, at_.ray.direction, at_.in);
             return true;
         }
-        return reflect(hit, material);
+        return scatter(hit, material);
     }
 
-    bool reflect(const SurfaceHit& hit, const Material& material) {
+    bool scatter(const SurfaceHit& hit, const Material& material) {
         if (depth_ == tracer_.scene_.integrator.max_depth) return false;
         ++depth_;
-        const dvec3 travel = at_.ray.direction;
-        const dvec3& normal = hit.point.shading_normal;
-        const double side = -glm::dot(normal, travel);
+        if (is_dispersive(material)) throughput_ = disperse(throughput_);
+        dmat3 frame = frame_around(hit.point.shading_normal);
+        const double side = -glm::dot(hit.point.shading_normal, at_.ray.direction);
         if (side == 0) return false;
-        sample_light(
-            hit.point.position,
-            [&](const dvec3& to_light) { return respond(material, normal, travel, to_light); },
-            [&](const dvec3& to_light) { return leave_surface(hit, to_light, at_.in); });
-        // Proportional to the cosine: a point of the disc, raised to the hemisphere (Malley).
-        const dvec2 disk = concentric_disk(unit(words_.y), unit(words_.z));
-        const double cosine = std::sqrt(std::max(0.0, 1 - glm::dot(disk, disk)));
-        const dvec3 local(disk, std::copysign(cosine, side));
-        const dvec3 direction = glm::normalize(around(normal, local));
-        vertex_ = {hit.point.position, cosine / pi};
-        throughput_.beta *= material.reflectance;
-        at_ = leave_surface(hit, direction, at_.in);
+        if (side < 0) frame[2] = -frame[2];
+        const dvec3 wo = glm::transpose(frame) * -at_.ray.direction;
+        const Bsdf bsdf(material, side > 0, throughput_.hero);
+        if (!bsdf.is_delta()) {
+            sample_light(
+                hit.point.position,
+                [&](const dvec3& to_light) {
+                    return bsdf.respond(wo, glm::transpose(frame) * to_light);
+                },
+                [&](const dvec3& to_light) { return leave_surface(hit, to_light, at_.in); });
+        }
+        const double lobe = unit(random_.words(event_, shared::BLOCK_LIGHT).w);
+        const auto scattering = bsdf.sample(wo, {unit(words_.y), unit(words_.z), lobe});
+        if (!scattering) return false;
+        vertex_.reset();
+        if (scattering->density) vertex_ = {hit.point.position, *scattering->density};
+        throughput_.beta *= scattering->weight;
+        at_ = leave_surface(hit, glm::normalize(frame * scattering->direction), at_.in);
         return survive();
     }
 
