@@ -1,7 +1,8 @@
 # cmake -DTREE=folder -P CheckIncludes.cmake
 # Fails, naming each place, on an include that the layering forbids:
 #
-#   core <- scene, image, gpu <- render, reference, stats <- cli     shared <- lib <- wavefront
+#   core <- volume, phase <- scene    core <- image, gpu    those <- render, reference, stats <- cli
+#   shared <- lib <- wavefront
 #
 # A folder may include what its line below matches, and system headers. The folders that may include
 # a library's headers stand beside that library.
@@ -9,15 +10,17 @@ cmake_minimum_required(VERSION 3.25)
 
 set(rules
   "src/core      | core/"
-  "src/scene     | core/ scene/"
+  "src/volume    | core/ volume/"
+  "src/phase     | core/ phase/"
+  "src/scene     | core/ volume/ phase/ scene/"
   "src/image     | core/ image/"
   "src/gpu       | core/ gpu/ shared/bindings.h shared/features.h"
-  "src/render    | core/ scene/ image/ gpu/ render/ shared/ spirv/"
-  "src/reference | core/ scene/ reference/ shared/random.h shared/interop.h"
+  "src/render    | core/ volume/ phase/ scene/ image/ gpu/ render/ shared/ spirv/"
+  "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/interop.h"
   "src/stats     | core/ image/ stats/"
-  "src/cli       | core/ scene/ image/ gpu/ render/ reference/ stats/ cli/ shared/schedule.h"
+  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ cli/ shared/schedule.h"
   "src/main.cpp  | core/ cli/"
-  "shaders/shared    | interop.h"
+  "shaders/shared    | interop.h records.h"
   "shaders/lib       | shared/ lib/"
   "shaders/wavefront | shared/ lib/ wavefront/.*glsl")
 
@@ -25,6 +28,7 @@ set(libraries
   "volk.h vulkan/ | src/gpu"
   "OpenImageIO/   | src/image"
   "embree         | src/render src/reference"
+  "openvdb nanovdb/ | src/volume"
   "CLI/           | src/cli"
   "nlohmann/      | src/cli")
 

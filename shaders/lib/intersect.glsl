@@ -27,9 +27,10 @@ Ray make_ray(vec3 origin, vec3 direction) {
     return ray;
 }
 
-/// Whether the ray meets the box within [0, t_max]; `near` is where. Never misses a box that it enters or
-/// touches: far distances are widened by the error of three roundings (Ize 2013, "Robust BVH Ray
-/// Traversal"). Only a ray that runs along an axis exactly within an upper face belongs to the next box.
+/// Whether the ray meets the box within [0, t_max]; `near` is where. Never misses a box that it
+/// enters or touches: far distances are widened by the error of three roundings (Ize 2013, "Robust
+/// BVH Ray Traversal"). Only a ray that runs along an axis exactly within an upper face belongs to
+/// the next box.
 bool intersect_box(Ray ray, vec3 lower, vec3 upper, float t_max, out float near) {
     const vec3 a = (lower - ray.origin) * ray.inverse;
     const vec3 b = (upper - ray.origin) * ray.inverse;
@@ -52,8 +53,8 @@ bool intersect_box_surface(Ray ray, vec3 lower, vec3 upper, float t_max, out flo
     return near <= far && t > 0.0 && t < t_max;
 }
 
-/// A vertex as seen along the ray. It depends on nothing but the ray and the vertex, so triangles that
-/// share an edge see the same edge.
+/// A vertex as seen along the ray. It depends on nothing but the ray and the vertex, so triangles
+/// that share an edge see the same edge.
 vec2 project_vertex(Ray ray, vec3 vertex) {
     precise vec3 p = vertex - ray.origin;
     precise float x = p.x * ray.u.x + p.y * ray.u.y + p.z * ray.u.z;
@@ -67,9 +68,9 @@ float edge(vec2 p, vec2 q) {
     return area;
 }
 
-/// Watertight: of the triangles around an edge or a vertex, a ray hits at least one (Woop et al. 2013, with a
-/// projection along the ray in place of the shear). The distance is that of the plane, not of the
-/// vertices: far-away vertices do not spoil it.
+/// Watertight: of the triangles around an edge or a vertex, a ray hits at least one (Woop et al.
+/// 2013, with a projection along the ray in place of the shear). The distance is that of the plane,
+/// not of the vertices: far-away vertices do not spoil it.
 bool intersect_triangle(Ray ray, vec3 a, vec3 b, vec3 c, vec3 normal, float offset, float t_max,
                         out float t) {
     const vec2 pa = project_vertex(ray, a);
@@ -135,8 +136,8 @@ bool intersect_disk(vec3 origin, vec3 direction, QuadricRecord q, float t_max, o
     return r <= q.radius && r >= q.inner_radius && azimuth(p) <= q.phi_max;
 }
 
-/// A bilinear patch; uv of the hit. Source: Reshetov 2019, "Cool Patches" (Ray Tracing Gems, ch. 8): for
-/// each root u of a quadratic, the ray is intersected with the line at u.
+/// A bilinear patch; uv of the hit. Source: Reshetov 2019, "Cool Patches" (Ray Tracing Gems, ch.
+/// 8): for each root u of a quadratic, the ray is intersected with the line at u.
 bool intersect_patch(Ray ray, vec3 p00, vec3 p10, vec3 p01, vec3 p11, float t_max, out float t,
                      out vec2 uv) {
     const vec3 q00 = p00 - ray.origin, q10 = p10 - ray.origin;

@@ -1,13 +1,14 @@
 // Light along one segment of a path through a homogeneous medium. Pure functions.
 //
 // Flights are sampled with the scattering coefficient alone; absorption is the closed-form weight
-// exp(-sigma_a s) of the segment. So a purely absorbing medium has no noise at all, and with albedo 0.8
-// variance times work is about half of that of flights by extinction.
+// exp(-sigma_a s) of the segment. So a purely absorbing medium has no noise at all, and with albedo
+// 0.8 variance times work is about half of that of flights by extinction.
 //
-// Where sigma_s differs between channels, one of them (the hero) samples the flight, and weights follow
-// the balance heuristic over the three ways in which the path could have been made (one-sample
-// spectral MIS: Wilkie et al. 2014). r holds the probability densities of the path so far under each
-// channel, divided by their mean: no weight exceeds 3 times what one channel alone would have.
+// Where sigma_s differs between channels, one of them (the hero) samples the flight, and weights
+// follow the balance heuristic over the three ways in which the path could have been made
+// (one-sample spectral MIS: Wilkie et al. 2014). r holds the probability densities of the path so
+// far under each channel, divided by their mean: no weight exceeds 3 times what one channel alone
+// would have.
 #ifndef TYNDALL_MEDIUM_GLSL
 #define TYNDALL_MEDIUM_GLSL
 
@@ -23,18 +24,24 @@ struct Medium {
     uint density_record;
 };
 
-float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
+float mean(vec3 v) {
+    return (v.x + v.y + v.z) * (1.0 / 3.0);
+}
 
 /// sigma * s, where 0 times infinity is 0.
 vec3 optical_depth(vec3 sigma, float s) {
     return mix(sigma * s, vec3(0), equal(sigma, vec3(0)));
 }
 
-/// exp(-sigma s), and exactly 1 where sigma is 0: a driver's exp(0) need not be, and a path through a medium
-/// that does not absorb may have a hundred thousand segments.
-vec3 attenuation(vec3 sigma, float s) { return mix(exp(-sigma * s), vec3(1), equal(sigma, vec3(0))); }
+/// exp(-sigma s), and exactly 1 where sigma is 0: a driver's exp(0) need not be, and a path through
+/// a medium that does not absorb may have a hundred thousand segments.
+vec3 attenuation(vec3 sigma, float s) {
+    return mix(exp(-sigma * s), vec3(1), equal(sigma, vec3(0)));
+}
 
-vec3 transmittance(Medium medium, float s) { return attenuation(medium.sigma_a + medium.sigma_s, s); }
+vec3 transmittance(Medium medium, float s) {
+    return attenuation(medium.sigma_a + medium.sigma_s, s);
+}
 
 /// Free flight for the exponential variate tau; infinite where the channel does not scatter.
 float flight_distance(Medium medium, uint hero, float tau) {
@@ -46,9 +53,9 @@ float flight_distance(Medium medium, uint hero, float tau) {
 vec3 segment_emission(Medium medium, vec3 throughput, vec3 r, float s) {
     if (is_chromatic == 0u)
         return throughput * medium.emission * one_minus_exp(optical_depth(medium.sigma_a, s));
-    // Weight at x, if the flight got there: exp(-(sigma_a + sigma_s) x) / mean(r exp(-sigma_s x)). Relative to
-    // the least sigma_s it falls at least as exp(-lambda x); x = end v^2 puts the 16 Gauss-Legendre nodes
-    // where it is steep, and past exp(-20) there is nothing left.
+    // Weight at x, if the flight got there: exp(-(sigma_a + sigma_s) x) / mean(r exp(-sigma_s x)).
+    // Relative to the least sigma_s it falls at least as exp(-lambda x); x = end v^2 puts the 16
+    // Gauss-Legendre nodes where it is steep, and past exp(-20) there is nothing left.
     const float nodes[8] = float[](0.0950125098, 0.2816035508, 0.4580167777, 0.6178762444,
                                    0.7554044084, 0.8656312024, 0.9445750231, 0.9894009350);
     const float weights[8] = float[](0.1894506105, 0.1826034150, 0.1691565194, 0.1495959888,
@@ -77,7 +84,8 @@ void pass_segment(Medium medium, uint hero, float s, bool collided, inout vec3 t
         throughput *= attenuation(medium.sigma_a, s);
         return;
     }
-    // Densities relative to that of the hero, whose exponential is at least e^-23: nothing overflows.
+    // Densities relative to that of the hero, whose exponential is at least e^-23: nothing
+    // overflows.
     const float sigma_hero = medium.sigma_s[hero];
     vec3 density = attenuation(medium.sigma_s - sigma_hero, s);
     if (collided) density *= medium.sigma_s / sigma_hero;

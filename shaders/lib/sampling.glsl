@@ -1,7 +1,7 @@
 // Warps of uniform numbers, and the elementary functions they need. Pure functions.
 //
-// Vulkan promises little of sin, cos and log (absolute errors of 2^-11 and 2^-21), so those that decide
-// where a path goes are our own.
+// Vulkan promises little of sin, cos and log (absolute errors of 2^-11 and 2^-21), so those that
+// decide where a path goes are our own.
 #ifndef TYNDALL_SAMPLING_GLSL
 #define TYNDALL_SAMPLING_GLSL
 
@@ -52,8 +52,8 @@ vec3 one_minus_exp(vec3 x) {
 }
 
 /// Two unit vectors that form a right-handed frame with the unit vector n.
-/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited"; but the frame jumps at n.z = -0.75 and
-/// not at 0, where rounding would pick the frame of every upright wall.
+/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited"; but the frame jumps at n.z
+/// = -0.75 and not at 0, where rounding would pick the frame of every upright wall.
 void make_frame(vec3 n, out vec3 s, out vec3 t) {
     const float sign_z = n.z < -0.75 ? -1.0 : 1.0;
     const float a = -1.0 / (sign_z + n.z);
@@ -83,8 +83,8 @@ vec2 sample_disk(float u, float v) {
     return r * sc.yx;
 }
 
-/// Power heuristic (beta = 2) for one sample of pdf a against one of pdf b (Veach 1997, 9.2.4). Formed from
-/// their ratio, so that no square overflows.
+/// Power heuristic (beta = 2) for one sample of pdf a against one of pdf b (Veach 1997, 9.2.4).
+/// Formed from their ratio, so that no square overflows.
 float power_heuristic(float a, float b) {
     if (b == 0.0) return 1.0;
     const float ratio = b / a;

@@ -4,8 +4,8 @@
 
 #include "lib/sampling.glsl"
 
-/// The part of a line within a box, cut to [0, t_max]; false if there is none. A component of the direction that
-/// is 0 neither enters nor leaves: no 0 * inf.
+/// The part of a line within a box, cut to [0, t_max]; false if there is none. A component of the
+/// direction that is 0 neither enters nor leaves: no 0 * inf.
 bool clip_to_box(vec3 origin, vec3 direction, vec3 lower, vec3 upper, float t_max, out float t0,
                  out float t1) {
     t0 = 0.0;
@@ -23,8 +23,8 @@ bool clip_to_box(vec3 origin, vec3 direction, vec3 lower, vec3 upper, float t_ma
     return meets && t0 < t1;
 }
 
-/// A walk over cubic cells of edge `size` that start at `lower`, along a line. Boundaries are computed from cell
-/// indices and not added up, so that nothing drifts.
+/// A walk over cubic cells of edge `size` that start at `lower`, along a line. Boundaries are
+/// computed from cell indices and not added up, so that nothing drifts.
 struct CellWalk {
     vec3 origin; ///< In cells: (index - lower) / size
     vec3 direction;
@@ -45,13 +45,14 @@ CellWalk begin_cells(vec3 origin, vec3 direction, vec3 lower, float size, ivec3 
 /// Distance at which the line leaves the present cell, and the axis through whose face it does.
 float cell_exit(CellWalk walk, out int axis) {
     const vec3 face = vec3(walk.cell + max(walk.step, ivec3(0)));
-    const vec3 t = mix((face - walk.origin) / walk.direction, vec3(INFINITY), equal(walk.step, ivec3(0)));
+    const vec3 t =
+        mix((face - walk.origin) / walk.direction, vec3(INFINITY), equal(walk.step, ivec3(0)));
     axis = t.x <= t.y && t.x <= t.z ? 0 : t.y <= t.z ? 1 : 2;
     return t[axis];
 }
 
-/// The voxel that a stochastic trilinear tap at a point of index space reads, chosen by one uniform number whose
-/// rest serves the next axis.
+/// The voxel that a stochastic trilinear tap at a point of index space reads, chosen by one uniform
+/// number whose rest serves the next axis.
 ivec3 choose_corner(vec3 index, float u) {
     const vec3 base = floor(index);
     const vec3 f = index - base;
@@ -64,8 +65,8 @@ ivec3 choose_corner(vec3 index, float u) {
     return corner;
 }
 
-/// Integral of exp(-h / H) over [0, t] along a line that starts at height h0 and rises by m per unit. Source:
-/// ORACLES 3.1; expm1 form, so that the horizon (m = 0) is no exception.
+/// Integral of exp(-h / H) over [0, t] along a line that starts at height h0 and rises by m per
+/// unit. Source: ORACLES 3.1; expm1 form, so that the horizon (m = 0) is no exception.
 float exponential_column(float h0, float m, float scale_height, float t) {
     const float density = exp(-h0 / scale_height);
     const float x = m / scale_height; // 1 / length of the fall-off along the line

@@ -10,9 +10,9 @@
 TYNDALL_SHARED_BEGIN
 
 TYNDALL_CONSTANT uint GEOMETRY_NONE = 0u; // nothing to hit
-TYNDALL_CONSTANT uint GEOMETRY_BOX = 1u; // one axis-aligned box that bounds one medium in a vacuum
+TYNDALL_CONSTANT uint GEOMETRY_BOX = 1u;  // one axis-aligned box that bounds one medium in a vacuum
 TYNDALL_CONSTANT uint GEOMETRY_ELLIPSOID = 2u; // one ellipsoid, likewise
-TYNDALL_CONSTANT uint GEOMETRY_BVH = 3u; // anything
+TYNDALL_CONSTANT uint GEOMETRY_BVH = 3u;       // anything
 
 TYNDALL_CONSTANT uint PRIMITIVE_TRIANGLES = 1u;
 TYNDALL_CONSTANT uint PRIMITIVE_PATCHES = 2u;
@@ -43,31 +43,34 @@ TYNDALL_CONSTANT uint FILTER_TABLE = 2u;
 TYNDALL_SHARED_END
 
 #define TYNDALL_FEATURES(X)                                                                        \
-    X(0, workgroup_size, 64)    /* invocations per workgroup */                                    \
-    X(1, storage_fallback, 0)   /* bit n: texel buffer n is too large, read its storage twin */    \
-    X(2, geometry, 3)           /* GEOMETRY_* */                                                   \
-    X(3, primitives, 255)       /* PRIMITIVE_* bits that occur */                                  \
-    X(4, lights, 15)            /* LIGHTS_* bits that light sampling has to deal with */           \
-    X(5, filter_kind, 2)        /* FILTER_* */                                                     \
-    X(6, has_media, 1)          /* any medium at all */                                            \
-    X(7, has_scattering, 1)     /* some medium scatters */                                         \
-    X(8, has_emission, 1)       /* some medium emits */                                            \
-    X(9, is_anisotropic, 1)     /* some phase function has g != 0 */                               \
-    X(10, is_chromatic, 1)      /* some medium differs between channels */                         \
-    X(11, is_grey, 0)           /* nothing at all differs between channels */                      \
-    X(12, has_interfaces, 1)    /* some surface is a mere boundary between media */                \
-    X(13, has_surfaces, 1)      /* some surface scatters or emits */                               \
-    X(14, has_emitters, 1)      /* some surface emits */                                           \
+    X(0, workgroup_size, 64)      /* invocations per workgroup */                                  \
+    X(1, storage_fallback, 0)     /* bit n: texel buffer n is too large, read its storage twin */  \
+    X(2, geometry, 3)             /* GEOMETRY_* */                                                 \
+    X(3, primitives, 255)         /* PRIMITIVE_* bits that occur */                                \
+    X(4, lights, 15)              /* LIGHTS_* bits that light sampling has to deal with */         \
+    X(5, filter_kind, 2)          /* FILTER_* */                                                   \
+    X(6, has_media, 1)            /* any medium at all */                                          \
+    X(7, has_scattering, 1)       /* some medium scatters */                                       \
+    X(8, has_emission, 1)         /* some medium emits */                                          \
+    X(9, is_anisotropic, 1)       /* some phase function has g != 0 */                             \
+    X(10, is_chromatic, 1)        /* some medium differs between channels */                       \
+    X(11, is_grey, 0)             /* nothing at all differs between channels */                    \
+    X(12, has_interfaces, 1)      /* some surface is a mere boundary between media */              \
+    X(13, surface_queues, 1023)   /* bit q: at some surface or interface, paths wait in queue q */ \
+    X(14, has_emitters, 1)        /* some surface emits */                                         \
     X(15, has_shading_normals, 1) /* some mesh has vertex normals */                               \
-    X(16, has_environment, 1)   /* light arrives from infinity in all directions */                \
-    X(17, has_lens, 1)          /* the camera has an aperture */                                   \
-    X(18, has_clamp, 1)         /* radiance is limited to maxcomponentvalue */                     \
-    X(19, is_orthographic, 1)   /* kind of camera */                                               \
-    X(20, emitters, 15)         /* PRIMITIVE_* bits that occur among what emits */                 \
-    X(21, densities, 15)        /* DENSITY_BIT_* bits: how the density of media varies */          \
-    X(22, has_rgb_grids, 1)     /* some grid has coefficients of its own by channel */             \
-    X(23, has_temperature, 1)   /* some grid emits as a black body */                              \
-    X(24, voxels_are_half, 0)   /* voxels are 16-bit floats */
+    X(16, has_environment, 1)     /* light arrives from infinity in all directions */              \
+    X(17, has_lens, 1)            /* the camera has an aperture */                                 \
+    X(18, has_clamp, 1)           /* radiance is limited to maxcomponentvalue */                   \
+    X(19, is_orthographic, 1)     /* kind of camera */                                             \
+    X(20, emitters, 15)           /* PRIMITIVE_* bits that occur among what emits */               \
+    X(21, densities, 15)          /* DENSITY_BIT_* bits: how the density of media varies */        \
+    X(22, has_rgb_grids, 1)       /* some grid has coefficients of its own by channel */           \
+    X(23, has_temperature, 1)     /* some grid emits as a black body */                            \
+    X(24, voxels_are_half, 0)     /* voxels are 16-bit floats */                                   \
+    X(25, is_rough, 1)       /* this stage's surfaces are rough; set by stage, not by scene */     \
+    X(26, has_thin_panes, 1) /* some smooth dielectric is a thin pane */                           \
+    X(27, has_dispersion, 1) /* some index of refraction differs between channels */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

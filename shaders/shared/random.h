@@ -15,12 +15,12 @@
 //             BLOCK_LIGHT  0: choice of light                   1, 2: position on the light
 //                          3: reflection or transmission
 //
-// In a medium that is tracked (voxels, spherical atmosphere) each tentative collision is an event of its own:
-// BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A real one is scattered in the
-// next event, whose word 0 is not used.
+// In a medium that is tracked (voxels, spherical atmosphere) each tentative collision is an event
+// of its own: BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A
+// real one is scattered in the next event, whose word 0 is not used.
 //
-// Step i of a shadow ray through such media, counted over all tentative collisions of the ray, uses block
-// BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
+// Step i of a shadow ray through such media, counted over all tentative collisions of the ray, uses
+// block BLOCK_SHADOW + i of the event that cast it: 0: optical distance, 1: corner.
 #ifndef TYNDALL_RANDOM_H
 #define TYNDALL_RANDOM_H
 

@@ -2,8 +2,9 @@
 //
 // Scene records are whole texels (16 bytes each, rgba32ui): three floats and a word, or four words.
 // The device reads them through the load functions of wavefront/scene.glsl. All positions are in
-// render space: the world moved so that the camera is at the origin, which is where float32 is finest.
-// An index or offset of NONE means "none". Medium indices are those of Scene::media; VACUUM is none.
+// render space: the world moved so that the camera is at the origin, which is where float32 is
+// finest. An index or offset of NONE means "none". Medium indices are those of Scene::media; VACUUM
+// is none.
 #ifndef TYNDALL_RECORDS_H
 #define TYNDALL_RECORDS_H
 
@@ -12,7 +13,8 @@
 TYNDALL_SHARED_BEGIN
 
 TYNDALL_CONSTANT uint NONE = 0xFFFFFFFFu;
-TYNDALL_CONSTANT uint COLLISION = 0xFFFFFFFEu; // in place of a primitive: the segment ended in a medium
+TYNDALL_CONSTANT uint COLLISION =
+    0xFFFFFFFEu; // in place of a primitive: the segment ended in a medium
 TYNDALL_CONSTANT uint VACUUM = 0xFFFFu;
 
 // Primitive kinds, in the upper bits of PrimitiveRecord::kind_and_shape.
@@ -26,10 +28,11 @@ TYNDALL_CONSTANT uint KIND_BOX = 5u;
 TYNDALL_CONSTANT uint SHAPE_MASK = 0x1FFFFFFFu;
 
 // ShapeRecord::flags
-TYNDALL_CONSTANT uint SHAPE_INTERFACE = 1u; // no surface: only a boundary between media
+TYNDALL_CONSTANT uint SHAPE_INTERFACE = 1u;  // no surface: only a boundary between media
 TYNDALL_CONSTANT uint SHAPE_TRANSITION = 2u; // crossing it changes the medium
 TYNDALL_CONSTANT uint SHAPE_EMITS = 4u;
 TYNDALL_CONSTANT uint SHAPE_TWO_SIDED = 8u; // emits on both sides
+TYNDALL_CONSTANT uint SHAPE_THIN = 16u;     // a thin pane of a dielectric
 
 // LightRecord::kind
 TYNDALL_CONSTANT uint LIGHT_DISTANT = 0u;
@@ -38,7 +41,8 @@ TYNDALL_CONSTANT uint LIGHT_SPOT = 2u;
 TYNDALL_CONSTANT uint LIGHT_AREA = 3u;
 TYNDALL_CONSTANT uint LIGHT_AREA_TWO_SIDED = 4u;
 
-// Children of a NodeRecord: inner nodes by index; leaves as LEAF | (count - 1) << 24 | first primitive.
+// Children of a NodeRecord: inner nodes by index; leaves as LEAF | (count - 1) << 24 | first
+// primitive.
 TYNDALL_CONSTANT uint LEAF = 0x80000000u;
 TYNDALL_CONSTANT uint LEAF_COUNT_SHIFT = 24u;
 TYNDALL_CONSTANT uint LEAF_COUNT_MAX = 128u;
@@ -63,7 +67,7 @@ struct CameraRecord {
     float filter_x_radius; ///< In pixels.
     vec3 lens_v;
     float filter_y_radius;
-    vec3 environment; ///< Radiance that arrives from infinity, the same in all directions.
+    vec3 environment;  ///< Radiance that arrives from infinity, the same in all directions.
     uint filter_cells; ///< FILTER_TABLE: cells per axis.
 };
 TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
@@ -88,11 +92,15 @@ struct ShapeRecord {
     uint flags;          ///< SHAPE_*
     uint medium_inside;  ///< Against the normal.
     uint medium_outside; ///< On the side of the normal.
-    uint pad0;
-    vec3 reflectance; ///< Of a diffuse surface.
+    uint queue;          ///< QUEUE_*: where paths that stand at it wait.
+    vec3 reflectance;    ///< Of a diffuse surface.
+    float alpha;         ///< Roughness (GGX) of a dielectric or a conductor.
+    vec3 eta;            ///< Index of refraction. Dielectric: inside over outside.
+    float pad0;
+    vec3 k; ///< Absorption index of a conductor.
     float pad1;
 };
-TYNDALL_CONSTANT uint SHAPE_TEXELS = 2u;
+TYNDALL_CONSTANT uint SHAPE_TEXELS = 4u;
 
 /// One primitive, in the order of the leaves of the hierarchy.
 /// triangle: a, b, c vertices; normal and offset of its plane (normal . p = offset)
@@ -135,14 +143,16 @@ struct QuadricRecord {
 };
 TYNDALL_CONSTANT uint QUADRIC_TEXELS = 8u;
 TYNDALL_CONSTANT uint QUADRIC_FULL = 1u; // a sphere without cuts
-TYNDALL_CONSTANT uint QUADRIC_SIMILARITY = 2u; // world_from_object keeps shapes: rotation, translation, equal scale
+TYNDALL_CONSTANT uint QUADRIC_SIMILARITY =
+    2u; // world_from_object keeps shapes: rotation, translation, equal scale
 
 struct InstanceRecord {
     AffineRecord object_from_world;
     AffineRecord world_from_object;
     uint triangle_root; ///< Roots of its hierarchies, as in PushConstants.
     uint other_root;
-    uint medium_shift; ///< Added to the media of its shapes' boundaries: its own copies, which move with it.
+    uint medium_shift; ///< Added to the media of its shapes' boundaries: its own copies, which move
+                       ///< with it.
     uint pad0;
 };
 TYNDALL_CONSTANT uint INSTANCE_TEXELS = 7u;
@@ -162,12 +172,12 @@ TYNDALL_CONSTANT uint NODE_TEXELS = 4u;
 
 /// A light that light sampling chooses.
 struct LightRecord {
-    vec3 position; ///< point, spot; direction of travel for distant
-    uint kind;     ///< LIGHT_*
-    vec3 radiance; ///< area: radiance; point, spot: intensity; distant: irradiance
-    float probability; ///< That it is chosen.
-    vec3 axis;     ///< spot
-    uint primitive; ///< area: index into the primitives
+    vec3 position;          ///< point, spot; direction of travel for distant
+    uint kind;              ///< LIGHT_*
+    vec3 radiance;          ///< area: radiance; point, spot: intensity; distant: irradiance
+    float probability;      ///< That it is chosen.
+    vec3 axis;              ///< spot
+    uint primitive;         ///< area: index into the primitives
     float complement_start; ///< spot: 1 - cos of the angle up to which it is at full intensity,
     float complement_width; ///< and of that from which there is none.
     float pad0;
@@ -177,7 +187,8 @@ TYNDALL_CONSTANT uint LIGHT_TEXELS = 4u;
 
 /// A cell of the alias table by which a light is chosen (Vose 1991).
 struct AliasRecord {
-    float threshold; ///< Keep the cell's own index if the fraction of the draw is below, else take ...
+    float threshold; ///< Keep the cell's own index if the fraction of the draw is below, else take
+                     ///< ...
     uint alias;      ///< ... this one.
     uint pad0;
     uint pad1;
@@ -197,19 +208,19 @@ TYNDALL_CONSTANT uint REGION_TEXELS = 5u;
 /// Where each table starts in the scene buffer (texel offsets), and what a dispatch works on.
 struct PushConstants {
     uvec2 seed;
-    uint slot_count;   ///< Paths in flight.
-    uint run_length;   ///< Most events per path and dispatch.
-    uint width;        ///< Of the rendered bounds.
-    uint pixel_count;  ///< Of the rendered bounds.
-    uint x0;           ///< Of the rendered bounds in the picture.
+    uint slot_count;  ///< Paths in flight.
+    uint run_length;  ///< Most events per path and dispatch.
+    uint width;       ///< Of the rendered bounds.
+    uint pixel_count; ///< Of the rendered bounds.
+    uint x0;          ///< Of the rendered bounds in the picture.
     uint y0;
-    uint full_width;   ///< Of the picture.
+    uint full_width; ///< Of the picture.
     uint max_depth;
     uint first_sample; ///< Samples rendered: first_sample <= sample < end_sample
     uint end_sample;
-    uint first_batch;  ///< Batch of ticket 0.
-    uint batch_count;  ///< Batches of this epoch: tickets 0 ... batch_count * pixel_count - 1.
-    uint window;       ///< Batches that may be in flight at once.
+    uint first_batch; ///< Batch of ticket 0.
+    uint batch_count; ///< Batches of this epoch: tickets 0 ... batch_count * pixel_count - 1.
+    uint window;      ///< Batches that may be in flight at once.
     uint filter_table;
     uint media;
     uint shapes;
@@ -238,12 +249,16 @@ TYNDALL_CONSTANT int HEALTH_COUNT = 3;
 
 // Queues of path slots, by what waits in them. Queue q holds its slots from q * slot_count on.
 TYNDALL_CONSTANT uint QUEUE_VOLUME = 0u;    // collided in a medium
-TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a surface
+TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a diffuse surface
 TYNDALL_CONSTANT uint QUEUE_INTERFACE = 2u; // stand at a boundary between media
 TYNDALL_CONSTANT uint QUEUE_SHADOW = 3u;    // have a shadow ray to trace
 TYNDALL_CONSTANT uint QUEUE_ENDED = 4u;     // have no path, or one that has ended
-TYNDALL_CONSTANT uint QUEUE_TRACK = 5u;     // fly through a medium on voxels, or a spherical atmosphere
-TYNDALL_CONSTANT uint QUEUE_COUNT = 6u;
+TYNDALL_CONSTANT uint QUEUE_TRACK = 5u; // fly through a medium on voxels, or a spherical atmosphere
+TYNDALL_CONSTANT uint QUEUE_DIELECTRIC = 6u; // stand at a smooth dielectric, or a thin pane
+TYNDALL_CONSTANT uint QUEUE_ROUGH_DIELECTRIC = 7u;
+TYNDALL_CONSTANT uint QUEUE_CONDUCTOR = 8u; // stand at smooth metal
+TYNDALL_CONSTANT uint QUEUE_ROUGH_CONDUCTOR = 9u;
+TYNDALL_CONSTANT uint QUEUE_COUNT = 10u;
 
 /// Arguments of vkCmdDispatchIndirect.
 struct DispatchSize {
@@ -255,7 +270,8 @@ struct Control {
     DispatchSize queue_dispatch[QUEUE_COUNT];
     DispatchSize fold_dispatch;
     uint queue_size[QUEUE_COUNT];
-    uint next_ticket;    ///< Work item = ticket: batch ticket / pixel_count, pixel ticket % pixel_count.
+    uint next_ticket;    ///< Work item = ticket: batch ticket / pixel_count, pixel ticket %
+                         ///< pixel_count.
     uint ticket_limit;   ///< Tickets below may be worked on.
     uint folded_batches; ///< Batches of this epoch that are in the film.
     uint fold_count;     ///< Batches that the next fold adds.
@@ -263,26 +279,28 @@ struct Control {
     uint health[HEALTH_COUNT];
 };
 
-// Path state: groups of one texel, so that a stage touches only what it needs (a store costs as much as
-// ten loads on a CPU driver).
+// Path state: groups of one texel, so that a stage touches only what it needs (a store costs as
+// much as ten loads on a CPU driver).
 TYNDALL_CONSTANT uint PATH_ORIGIN = 0u;     // origin xyz | medium (16 bits), status (4), hero (2)
 TYNDALL_CONSTANT uint PATH_DIRECTION = 1u;  // direction xyz | event
 TYNDALL_CONSTANT uint PATH_THROUGHPUT = 2u; // throughput rgb | depth
-TYNDALL_CONSTANT uint PATH_RADIANCE = 3u;   // radiance rgb | density of the last direction per steradian
-TYNDALL_CONSTANT uint PATH_SAMPLE = 4u;     // x | y << 16 in the picture, sample, end of batch, weight
-TYNDALL_CONSTANT uint PATH_SUM = 5u;        // sum over the batch: weight * radiance, weight
-TYNDALL_CONSTANT uint PATH_TICKET = 6u;     // ticket, pixel, slot of the batch in the window | unused
-TYNDALL_CONSTANT uint PATH_HIT = 7u;        // distance, primitive, instance | distance before the segment
-TYNDALL_CONSTANT uint PATH_SPECTRAL = 8u;   // ratios r rgb (chromatic media) | unused
-TYNDALL_CONSTANT uint PATH_SHADOW = 9u;     // 3: origin | medium; direction | distance; contribution | target
-TYNDALL_CONSTANT uint PATH_TRACK = 12u;     // how far tracking has come along the segment | unused
+TYNDALL_CONSTANT uint PATH_RADIANCE =
+    3u; // radiance rgb | density of the last direction per steradian
+TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of batch, weight
+TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the batch: weight * radiance, weight
+TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in the window | unused
+TYNDALL_CONSTANT uint PATH_HIT = 7u; // distance, primitive, instance | distance before the segment
+TYNDALL_CONSTANT uint PATH_SPECTRAL = 8u; // ratios r rgb (chromatic media) | unused
+TYNDALL_CONSTANT uint PATH_SHADOW =
+    9u; // 3: origin | medium; direction | distance; contribution | target
+TYNDALL_CONSTANT uint PATH_TRACK = 12u; // how far tracking has come along the segment | unused
 TYNDALL_CONSTANT uint PATH_GROUPS = 13u;
 
-// Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight, and the sum of squared
-// residuals of batches (Welford), from which the variance of the mean follows.
-TYNDALL_CONSTANT uint FILM_SUM = 0u; // rgb, weight
+// Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight, and the sum of
+// squared residuals of batches (Welford), from which the variance of the mean follows.
+TYNDALL_CONSTANT uint FILM_SUM = 0u;          // rgb, weight
 TYNDALL_CONSTANT uint FILM_COMPENSATION = 1u; // rgb, weight
-TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u; // rgb, unused
+TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u;     // rgb, unused
 TYNDALL_CONSTANT uint FILM_TEXELS = 3u;
 
 TYNDALL_SHARED_END

@@ -1,9 +1,10 @@
 // Which samples form a batch. Batches are fixed ranges of sample indices: the film sums the samples
 // of a batch in order from zero and folds batches in order, which is what makes images bit-equal
-// however the work was scheduled. Batches are also the independent estimates behind the stated error.
+// however the work was scheduled. Batches are also the independent estimates behind the stated
+// error.
 //
-// Four batches of one sample, then two in each doubling of the sample count (2, 4, 8 ... samples long), up to
-// batches of 64: any render has several, and a long one has few.
+// Four batches of one sample, then two in each doubling of the sample count (2, 4, 8 ... samples
+// long), up to batches of 64: any render has several, and a long one has few.
 #ifndef TYNDALL_SCHEDULE_H
 #define TYNDALL_SCHEDULE_H
 

@@ -12,8 +12,8 @@ TYNDALL_CONSTANT uint DENSITY_GRID = 1u;   // GridRecord
 TYNDALL_CONSTANT uint DENSITY_PLANE = 2u;  // ExponentialRecord
 TYNDALL_CONSTANT uint DENSITY_SPHERE = 3u; // ExponentialRecord
 
-/// Where the bricks of one grid are (volume/grid.h). Word b of the table is the number of brick b in the voxel
-/// buffer (512 voxels each), or NONE.
+/// Where the bricks of one grid are (volume/grid.h). Word b of the table is the number of brick b
+/// in the voxel buffer (512 voxels each), or NONE.
 struct BrickTableRecord {
     ivec3 first_brick;
     uint table; ///< Texel at which its words start, four a texel.
@@ -53,8 +53,8 @@ struct ExponentialRecord {
 };
 TYNDALL_CONSTANT uint EXPONENTIAL_TEXELS = 5u;
 
-// Emission of a black body: BLACKBODY_ENTRIES texels (rgb, unused) at temperatures spaced evenly in the logarithm
-// from BLACKBODY_MIN to BLACKBODY_MAX kelvin, linear in between; nothing below.
+// Emission of a black body: BLACKBODY_ENTRIES texels (rgb, unused) at temperatures spaced evenly in
+// the logarithm from BLACKBODY_MIN to BLACKBODY_MAX kelvin, linear in between; nothing below.
 TYNDALL_CONSTANT uint BLACKBODY_ENTRIES = 4096u;
 TYNDALL_CONSTANT float BLACKBODY_MIN = 100.0f;
 TYNDALL_CONSTANT float BLACKBODY_MAX = 1.0e6f;

@@ -10,28 +10,47 @@
 
 layout(local_size_x_id = 0) in;
 
-layout(push_constant, std430) uniform Push { PushConstants push; };
+layout(push_constant, std430) uniform Push {
+    PushConstants push;
+};
 
 layout(binding = BINDING_SCENE) uniform usamplerBuffer scene_texels;
 layout(binding = BINDING_PATHS, rgba32ui) uniform uimageBuffer path_texels;
 layout(binding = BINDING_BATCHES, rgba32ui) uniform uimageBuffer batch_texels;
 layout(binding = BINDING_FILM, rgba32ui) uniform uimageBuffer film_texels;
 layout(binding = BINDING_VOXELS) uniform samplerBuffer voxel_texels;
-layout(binding = STORAGE_TWIN + BINDING_VOXELS, std430) readonly buffer Voxels { uint voxel_words[]; };
-layout(binding = STORAGE_TWIN + BINDING_SCENE, std430) readonly buffer Scene { uvec4 scene_words[]; };
-layout(binding = STORAGE_TWIN + BINDING_PATHS, std430) buffer Paths { uvec4 path_words[]; };
-layout(binding = STORAGE_TWIN + BINDING_BATCHES, std430) buffer Batches { uvec4 batch_words[]; };
-layout(binding = STORAGE_TWIN + BINDING_FILM, std430) buffer Film { uvec4 film_words[]; };
-layout(binding = BINDING_CONTROL, std430) buffer ControlBlock { Control control; };
-layout(binding = BINDING_QUEUES, std430) buffer Queues { uint queues[]; };
+layout(binding = STORAGE_TWIN + BINDING_VOXELS, std430) readonly buffer Voxels {
+    uint voxel_words[];
+};
+layout(binding = STORAGE_TWIN + BINDING_SCENE, std430) readonly buffer Scene {
+    uvec4 scene_words[];
+};
+layout(binding = STORAGE_TWIN + BINDING_PATHS, std430) buffer Paths {
+    uvec4 path_words[];
+};
+layout(binding = STORAGE_TWIN + BINDING_BATCHES, std430) buffer Batches {
+    uvec4 batch_words[];
+};
+layout(binding = STORAGE_TWIN + BINDING_FILM, std430) buffer Film {
+    uvec4 film_words[];
+};
+layout(binding = BINDING_CONTROL, std430) buffer ControlBlock {
+    Control control;
+};
+layout(binding = BINDING_QUEUES, std430) buffer Queues {
+    uint queues[];
+};
 
-/// Index of this invocation in a dispatch of any number of workgroups (fold_dispatch uses two dimensions).
+/// Index of this invocation in a dispatch of any number of workgroups (fold_dispatch uses two
+/// dimensions).
 uint invocation() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * workgroup_size +
            gl_LocalInvocationIndex;
 }
 
-bool in_storage(int binding) { return (storage_fallback >> binding & 1u) != 0u; }
+bool in_storage(int binding) {
+    return (storage_fallback >> binding & 1u) != 0u;
+}
 
 uvec4 fetch_scene(uint texel) {
     if (in_storage(BINDING_SCENE)) return scene_words[texel];

@@ -13,26 +13,29 @@ struct Hit {
 
 struct SurfacePoint {
     vec3 position;
-    float error;    ///< Bound on how far `position` is off the surface, along the normal.
-    vec3 normal;    ///< Unit geometric normal; the outside is on its side.
-    vec3 shading;   ///< Unit shading normal.
+    float error;  ///< Bound on how far `position` is off the surface, along the normal.
+    vec3 normal;  ///< Unit geometric normal; the outside is on its side.
+    vec3 shading; ///< Unit shading normal.
     uint shape;
-    uint light;     ///< Light that the primitive is, or NONE.
+    uint light;        ///< Light that the primitive is, or NONE.
     uint medium_shift; ///< Added to the media of the shape (InstanceRecord).
 };
 
-// Three hierarchies, each walked by a loop of its own: a CPU driver executes all that stands in a loop for
-// every lane, taken or not, so a loop should hold one kind of work, and test its condition at the end.
+// Three hierarchies, each walked by a loop of its own: a CPU driver executes all that stands in a
+// loop for every lane, taken or not, so a loop should hold one kind of work, and test its condition
+// at the end.
 //
-// A walk alternates between two inner loops: down to a leaf, then through its primitives. Nodes name
-// both children with their boxes; the nearer one is next, the other waits on the stack.
+// A walk alternates between two inner loops: down to a leaf, then through its primitives. Nodes
+// name both children with their boxes; the nearer one is next, the other waits on the stack.
 
 struct Stack {
     uint nodes[BVH_DEPTH_MAX];
     int size;
 };
 
-uint pop(inout Stack stack) { return stack.size > 0 ? stack.nodes[--stack.size] : NONE; }
+uint pop(inout Stack stack) {
+    return stack.size > 0 ? stack.nodes[--stack.size] : NONE;
+}
 
 /// From a node to the nearest leaf below it that the ray may hit, or NONE.
 uint descend(Ray ray, float t_max, uint node, inout Stack stack) {
@@ -108,7 +111,8 @@ bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t)
 }
 
 /// Patches, quadrics and boxes.
-void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint target, inout Hit hit) {
+void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint target,
+                 inout Hit hit) {
     Stack stack;
     stack.size = 0;
     uint node = root;
@@ -124,7 +128,8 @@ void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint 
             vec2 uv;
             if ((primitives & PRIMITIVE_PATCHES) != 0u && kind == KIND_PATCH)
                 is_hit = intersect_patch(ray, p.a, p.b, p.c, p.normal, hit.t, t, uv);
-            if ((primitives & PRIMITIVE_QUADRICS) != 0u && (kind == KIND_SPHERE || kind == KIND_DISK))
+            if ((primitives & PRIMITIVE_QUADRICS) != 0u &&
+                (kind == KIND_SPHERE || kind == KIND_DISK))
                 is_hit = intersect_quadric(ray, kind, p.extra, hit.t, t);
             if ((primitives & PRIMITIVE_BOXES) != 0u && kind == KIND_BOX)
                 is_hit = intersect_box_surface(ray, p.a, p.b, hit.t, t);
@@ -196,11 +201,12 @@ vec3 shading_normal(PrimitiveRecord p, vec3 position, vec2 uv, vec3 normal) {
     return squared > 0.0 ? blended * inversesqrt(squared) : normal;
 }
 
-/// Bound on the error along the normal of an object-space point that goes to the world and, with the next
-/// ray, back. `raw_normal` is the unit object-space normal transformed, of any length.
+/// Bound on the error along the normal of an object-space point that goes to the world and, with
+/// the next ray, back. `raw_normal` is the unit object-space normal transformed, of any length.
 float round_trip_error(AffineRecord world_from_object, AffineRecord object_from_world, vec3 at,
                        vec3 raw_normal, vec3 position) {
-    const float scale = 1.0 / length(raw_normal); // world lengths per object length along the normal
+    const float scale =
+        1.0 / length(raw_normal); // world lengths per object length along the normal
     const vec3 there = transform_magnitude(world_from_object, at) + abs(position);
     const vec3 back = transform_magnitude(object_from_world, position) + abs(at);
     return 8.0 * EPSILON * scale * (dot(abs(raw_normal), there) + length(back));
@@ -219,9 +225,10 @@ void quadric_point(PrimitiveRecord p, vec3 origin, vec3 direction, float t, out 
     else
         at.z = q.z_min;
     position = transform_point(q.world_from_object, at);
-    normal = normalize(p.offset * transform_normal(q.object_from_world,
-                                                   is_sphere ? at : vec3(0, 0, 1)));
-    const vec3 raw = transform_normal(q.object_from_world, normalize(is_sphere ? at : vec3(0, 0, 1)));
+    normal =
+        normalize(p.offset * transform_normal(q.object_from_world, is_sphere ? at : vec3(0, 0, 1)));
+    const vec3 raw =
+        transform_normal(q.object_from_world, normalize(is_sphere ? at : vec3(0, 0, 1)));
     error = round_trip_error(q.world_from_object, q.object_from_world, at, raw, position);
 }
 
@@ -243,8 +250,8 @@ uint shape_of(uint primitive) {
     return fetch_scene(push.primitives + primitive * PRIMITIVE_TEXELS).w & SHAPE_MASK;
 }
 
-/// Where the ray hit, exactly on the primitive as far as float32 goes. The error is that of the surface at
-/// the point: distances and far-away vertices play no part in it.
+/// Where the ray hit, exactly on the primitive as far as float32 goes. The error is that of the
+/// surface at the point: distances and far-away vertices play no part in it.
 SurfacePoint surface_point(vec3 origin, vec3 direction, Hit hit) {
     const PrimitiveRecord p = load_primitive(hit.primitive);
     const uint kind = p.kind_and_shape >> KIND_SHIFT;

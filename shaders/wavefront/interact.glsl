@@ -27,8 +27,8 @@ uint medium_beyond(ShapeRecord shape, SurfacePoint s, vec3 direction, uint mediu
     return medium == VACUUM ? VACUUM : medium + s.medium_shift;
 }
 
-/// Takes the path to the end of its segment at distance t: emission on the way, then throughput. Tracking has
-/// done so already.
+/// Takes the path to the end of its segment at distance t: emission on the way, then throughput.
+/// Tracking has done so already.
 void travel(inout Path p, Medium medium, float t, bool collided) {
     if (is_tracked(medium)) return;
     const float column = column_length(medium, p.origin, p.direction, t);
@@ -39,10 +39,8 @@ void travel(inout Path p, Medium medium, float t, bool collided) {
 /// The queue of paths that stand at the primitive; of those that escape if it is NONE.
 uint queue_of_surface(uint primitive) {
     if (primitive == NONE) return QUEUE_ENDED;
-    if (has_interfaces == 0u) return QUEUE_SURFACE;
-    if (has_surfaces == 0u) return QUEUE_INTERFACE;
-    const uint flags = fetch_scene(push.shapes + shape_of(primitive) * SHAPE_TEXELS).x;
-    return (flags & SHAPE_INTERFACE) != 0u ? QUEUE_INTERFACE : QUEUE_SURFACE;
+    if ((surface_queues & (surface_queues - 1u)) == 0u) return uint(findLSB(surface_queues));
+    return fetch_scene(push.shapes + shape_of(primitive) * SHAPE_TEXELS).w;
 }
 
 /// Counts a scattering event; false if the path has had its share, and ends.
@@ -65,7 +63,8 @@ void roulette(inout Path p, uint word) {
         p.throughput *= 2.0;
 }
 
-/// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is in between.
+/// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is
+/// in between.
 LightSample light_in_medium(Path p, Medium medium) {
     LightSample light = sample_light(p.origin, draw(p, BLOCK_LIGHT));
     const float pdf = evaluate_phase(medium.g, p.direction, light.direction);
@@ -82,7 +81,9 @@ void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
     roulette(p, words.w);
 }
 
-bool is_black(vec3 c) { return max(c.x, max(c.y, c.z)) <= 0.0; }
+bool is_black(vec3 c) {
+    return max(c.x, max(c.y, c.z)) <= 0.0;
+}
 
 /// Leaves a shadow ray from `origin` to trace_shadow.
 void cast_shadow_ray(uint slot, vec3 origin, uint medium, LightSample light) {

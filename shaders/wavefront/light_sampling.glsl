@@ -6,15 +6,16 @@
 #include "wavefront/geometry.glsl"
 
 struct LightSample {
-    vec3 direction;  ///< Unit, towards the light.
-    float distance;  ///< To the light, INFINITY for distant ones.
-    vec3 radiance;   ///< What arrives if nothing is in between, divided by the density of the choice.
-    float pdf;       ///< Per steradian, choice of light included; 0: only light sampling finds this light.
-    uint target;     ///< Primitive that the light is, or NONE.
+    vec3 direction; ///< Unit, towards the light.
+    float distance; ///< To the light, INFINITY for distant ones.
+    vec3 radiance; ///< What arrives if nothing is in between, divided by the density of the choice.
+    float
+        pdf; ///< Per steradian, choice of light included; 0: only light sampling finds this light.
+    uint target; ///< Primitive that the light is, or NONE.
 };
 
-/// A uniform point of an emitter's surface: position, outward normal, density per area. For quadrics and
-/// patches the density follows from how the map from parameters stretches area.
+/// A uniform point of an emitter's surface: position, outward normal, density per area. For
+/// quadrics and patches the density follows from how the map from parameters stretches area.
 void sample_emitter_area(PrimitiveRecord p, float u, float v, out vec3 position, out vec3 normal,
                          out float density) {
     const uint kind = p.kind_and_shape >> KIND_SHIFT;
@@ -24,14 +25,16 @@ void sample_emitter_area(PrimitiveRecord p, float u, float v, out vec3 position,
         const float stretch = length(n);
         normal = p.offset / stretch * n;
         density = 1.0 / stretch;
-    } else if ((emitters & PRIMITIVE_QUADRICS) != 0u && (kind == KIND_SPHERE || kind == KIND_DISK)) {
+    } else if ((emitters & PRIMITIVE_QUADRICS) != 0u &&
+               (kind == KIND_SPHERE || kind == KIND_DISK)) {
         const QuadricRecord q = load_quadric(p.extra);
         vec3 at, n;
         const float phi_turns = v * q.phi_max / (2.0 * PI);
         float area;
         if (kind == KIND_SPHERE) {
             const float z = mix(q.z_min, q.z_max, u);
-            const vec2 sc = sin_cos_turns(phi_turns) * sqrt(max(0.0, (q.radius - z) * (q.radius + z)));
+            const vec2 sc =
+                sin_cos_turns(phi_turns) * sqrt(max(0.0, (q.radius - z) * (q.radius + z)));
             at = vec3(sc.y, sc.x, z);
             n = at / q.radius;
             area = q.phi_max * q.radius * (q.z_max - q.z_min);
@@ -72,9 +75,9 @@ float emitter_area_density(PrimitiveRecord p, vec3 position, vec3 normal) {
     }
     if ((emitters & PRIMITIVE_QUADRICS) != 0u && (kind == KIND_SPHERE || kind == KIND_DISK)) {
         const QuadricRecord q = load_quadric(p.extra);
-        const float area = kind == KIND_SPHERE
-                               ? q.phi_max * q.radius * (q.z_max - q.z_min)
-                               : 0.5 * q.phi_max * (q.radius - q.inner_radius) * (q.radius + q.inner_radius);
+        const float area = kind == KIND_SPHERE ? q.phi_max * q.radius * (q.z_max - q.z_min)
+                                               : 0.5 * q.phi_max * (q.radius - q.inner_radius) *
+                                                     (q.radius + q.inner_radius);
         // |M^-T n_object| = 1 / |M^T n_world|
         const vec3 n = vec3(dot(normal, vec3(q.world_from_object.row0.x, q.world_from_object.row1.x,
                                              q.world_from_object.row2.x)),
@@ -87,8 +90,8 @@ float emitter_area_density(PrimitiveRecord p, vec3 position, vec3 normal) {
     return 2.0 / length(cross(p.b - p.a, p.c - p.a));
 }
 
-/// sin^2 of the half angle that a whole, undistorted sphere subtends at the point; 2 where cone sampling does
-/// not apply (a point inside, a cut or distorted sphere, another shape).
+/// sin^2 of the half angle that a whole, undistorted sphere subtends at the point; 2 where cone
+/// sampling does not apply (a point inside, a cut or distorted sphere, another shape).
 float sphere_cone(PrimitiveRecord p, vec3 from, out vec3 to_center, out float radius) {
     to_center = vec3(0);
     radius = 0.0;
@@ -96,8 +99,9 @@ float sphere_cone(PrimitiveRecord p, vec3 from, out vec3 to_center, out float ra
         return 2.0;
     const QuadricRecord q = load_quadric(p.extra);
     if ((q.flags & QUADRIC_SIMILARITY) == 0u || (q.flags & QUADRIC_FULL) == 0u) return 2.0;
-    to_center = vec3(q.world_from_object.row0.w, q.world_from_object.row1.w,
-                     q.world_from_object.row2.w) - from;
+    to_center =
+        vec3(q.world_from_object.row0.w, q.world_from_object.row1.w, q.world_from_object.row2.w) -
+        from;
     radius = q.radius * length(q.world_from_object.row0.xyz);
     const float squared = dot(to_center, to_center);
     // A point on the sphere is not outside by rounding.
@@ -147,7 +151,8 @@ void sample_area_light(LightRecord light, vec3 from, float u, float v, inout Lig
         s.direction = to / s.distance;
         s.pdf = light.probability * density * squared / abs(dot(normal, s.direction));
     }
-    if (s.pdf > 0.0 && s.pdf <= FLOAT_MAX && emits_towards(light.kind == LIGHT_AREA_TWO_SIDED, normal, -s.direction))
+    if (s.pdf > 0.0 && s.pdf <= FLOAT_MAX &&
+        emits_towards(light.kind == LIGHT_AREA_TWO_SIDED, normal, -s.direction))
         s.radiance = light.radiance / s.pdf;
     s.target = light.primitive;
 }

@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Ends paths and begins the next: light from infinity for those that escape, the sum of the batch, then the
-// camera ray of the next sample. The last stage of a round: pending shadow rays have been traced.
+// Ends paths and begins the next: light from infinity for those that escape, the sum of the batch,
+// then the camera ray of the next sample. The last stage of a round: pending shadow rays have been
+// traced.
 //
 //   ENDED queue -> ray, batches
 

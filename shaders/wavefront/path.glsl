@@ -5,10 +5,10 @@
 #include "lib/camera.glsl"
 #include "wavefront/scene.glsl"
 
-#define STATUS_NEW 0u     // has never had a ticket (state starts as zeros)
-#define STATUS_WAITING 1u // its ticket is not yet due
-#define STATUS_RAY 2u     // has a ray to trace
-#define STATUS_ENDED 3u   // its path has ended
+#define STATUS_NEW 0u      // has never had a ticket (state starts as zeros)
+#define STATUS_WAITING 1u  // its ticket is not yet due
+#define STATUS_RAY 2u      // has a ray to trace
+#define STATUS_ENDED 3u    // its path has ended
 #define STATUS_TRACKING 4u // is on its way through a medium (track_medium)
 
 struct Path {
@@ -19,11 +19,11 @@ struct Path {
     vec3 direction;
     uint event; ///< Index for random numbers (shared/random.h).
     vec3 throughput;
-    uint depth; ///< Scattering events so far.
+    uint depth;    ///< Scattering events so far.
     vec3 radiance; ///< So far, of the path.
-    float pdf;     ///< Of the last direction, per steradian; 0: none, or none that lights could match.
-    uvec2 xy;      ///< Pixel in the picture.
-    uint stream;  ///< Index of the pixel in the picture, for random numbers.
+    float pdf; ///< Of the last direction, per steradian; 0: none, or none that lights could match.
+    uvec2 xy;  ///< Pixel in the picture.
+    uint stream; ///< Index of the pixel in the picture, for random numbers.
     uint path_sample;
     uint batch_end;
     float weight; ///< Of the pixel filter: 1 or -1.
@@ -98,7 +98,8 @@ void store_batch_state(uint slot, Path p) {
     store_path(PATH_TICKET, slot, uvec4(p.ticket, p.pixel, p.window_slot, 0u));
 }
 
-// Push constants that loops need, read once a kernel: a driver cannot know that stores leave them alone.
+// Push constants that loops need, read once a kernel: a driver cannot know that stores leave them
+// alone.
 uvec2 seed = push.seed;
 uint max_depth = push.max_depth;
 
@@ -130,8 +131,7 @@ void begin_sample(inout Path p, CameraRecord camera) {
                p.origin, p.direction);
     p.medium = has_media != 0u ? camera.medium : VACUUM;
     p.hero = 0u;
-    if (is_chromatic != 0u)
-        p.hero = min(2u, uint(3.0 * unit_float(draw(p, BLOCK_LIGHT).x)));
+    if (is_chromatic != 0u) p.hero = min(2u, uint(3.0 * unit_float(draw(p, BLOCK_LIGHT).x)));
     p.status = STATUS_RAY;
     p.event = 1u;
     p.throughput = vec3(1);
@@ -143,7 +143,8 @@ void begin_sample(inout Path p, CameraRecord camera) {
 
 uvec3 mishaps = uvec3(0); ///< What went wrong in this invocation, by kind of health counter.
 
-/// Adds what went wrong to the health counters. Once an invocation: atomics do not belong into loops.
+/// Adds what went wrong to the health counters. Once an invocation: atomics do not belong into
+/// loops.
 void report_health() {
     for (int kind = 0; kind < HEALTH_COUNT; ++kind)
         if (mishaps[kind] > 0u) atomicAdd(control.health[kind], mishaps[kind]);

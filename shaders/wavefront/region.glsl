@@ -1,5 +1,5 @@
-// Scenes whose only geometry is one convex boundary of a medium in a vacuum need no hierarchy: where a
-// ray enters and leaves is a formula, and a ray that has left does not come back.
+// Scenes whose only geometry is one convex boundary of a medium in a vacuum need no hierarchy:
+// where a ray enters and leaves is a formula, and a ray that has left does not come back.
 #ifndef TYNDALL_REGION_GLSL
 #define TYNDALL_REGION_GLSL
 

@@ -5,10 +5,14 @@
 #include "lib/medium.glsl"
 #include "wavefront/buffers.glsl"
 
-vec3 floats(uvec4 texel) { return uintBitsToFloat(texel.xyz); }
+vec3 floats(uvec4 texel) {
+    return uintBitsToFloat(texel.xyz);
+}
 
 /// A colour. In a grey scene all channels are the first, and the compiler keeps one.
-vec3 colour(vec3 c) { return is_grey != 0u ? vec3(c.x) : c; }
+vec3 colour(vec3 c) {
+    return is_grey != 0u ? vec3(c.x) : c;
+}
 
 CameraRecord load_camera() { // the camera opens the scene buffer
     CameraRecord camera;
@@ -60,7 +64,12 @@ ShapeRecord load_shape(uint index) {
     shape.flags = a.x;
     shape.medium_inside = a.y;
     shape.medium_outside = a.z;
-    shape.reflectance = colour(floats(fetch_scene(texel + 1u)));
+    shape.queue = a.w;
+    const uvec4 b = fetch_scene(texel + 1u);
+    shape.reflectance = colour(floats(b));
+    shape.alpha = uintBitsToFloat(b.w);
+    shape.eta = colour(floats(fetch_scene(texel + 2u)));
+    shape.k = colour(floats(fetch_scene(texel + 3u)));
     return shape;
 }
 
@@ -152,9 +161,9 @@ RegionRecord load_region() {
     return region;
 }
 
-/// Offset from the pixel's centre along one axis, drawn from |f|, and the sign of f there. The table holds
-/// cells + 1 nodes at equal steps over [-radius, radius]: density |f|, its cumulative integral, and the
-/// distance beyond which f is negative. See scene/filter.h.
+/// Offset from the pixel's centre along one axis, drawn from |f|, and the sign of f there. The
+/// table holds cells + 1 nodes at equal steps over [-radius, radius]: density |f|, its cumulative
+/// integral, and the distance beyond which f is negative. See scene/filter.h.
 float sample_filter_table(uint table, uint cells, float radius, float u, out float filter_sign) {
     uint low = 0u, high = cells; // cdf[low] <= u < cdf[high]
     while (high - low > 1u) {
@@ -168,8 +177,7 @@ float sample_filter_table(uint table, uint cells, float radius, float u, out flo
     const vec4 right = uintBitsToFloat(fetch_scene(table + low + 1u));
     const float width = 2.0 * radius / float(cells);
     const float mass = u - left.y;
-    const float root =
-        sqrt(max(0.0, left.x * left.x + 2.0 * mass * (right.x - left.x) / width));
+    const float root = sqrt(max(0.0, left.x * left.x + 2.0 * mass * (right.x - left.x) / width));
     const float t = mass > 0.0 ? min(2.0 * mass / (left.x + root), width) : 0.0;
     const float x = -radius + float(low) * width + t;
     filter_sign = abs(x) > left.z ? -1.0 : 1.0;

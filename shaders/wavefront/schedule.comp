@@ -2,10 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/buffers.glsl"
 
-// One invocation, at the end of a round: empties the queues, and sees which batches are complete. Those are
-// folded into the film next (update_film), and as many new ones may be started.
+// One invocation, at the end of a round: empties the queues, and sees which batches are complete.
+// Those are folded into the film next (update_film), and as many new ones may be started.
 
-/// A dispatch of so many invocations; devices need not allow more than 65535 workgroups in one dimension.
+/// A dispatch of so many invocations; devices need not allow more than 65535 workgroups in one
+/// dimension.
 DispatchSize dispatch_size(uint invocations) {
     const uint groups = (invocations + workgroup_size - 1u) / workgroup_size;
     return DispatchSize(min(groups, 32768u), (groups + 32767u) / 32768u, 1u);

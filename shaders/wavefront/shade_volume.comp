@@ -17,8 +17,7 @@ void main() {
     travel(p, medium, t, true);
     p.origin += t * p.direction;
     if (may_scatter(p)) {
-        if (lights != 0u)
-            cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
+        if (lights != 0u) cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
         scatter_in_medium(p, medium, draw(p, BLOCK_PATH));
     }
     ++p.event;

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Finds where the segment of each path ends: at the nearest surface, or before it by a collision in the
-// medium (free flight).
+// Finds where the segment of each path ends: at the nearest surface, or before it by a collision in
+// the medium (free flight).
 //
 //   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue
 
@@ -13,7 +13,8 @@ void main() {
     Path p;
     load_ray(slot, p);
     Hit hit = Hit(INFINITY, NONE, NONE);
-    uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK : QUEUE_ENDED; // ENDED: waits for work, or escapes
+    uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK
+                                             : QUEUE_ENDED; // ENDED: waits for work, or escapes
     if (p.status == STATUS_RAY) {
         hit = trace(p.origin, p.direction, INFINITY, false, NONE);
         queue = queue_of_surface(hit.primitive);
@@ -31,8 +32,9 @@ void main() {
             }
         }
         const float before = distance_travelled(slot, 0.0);
-        store_path(PATH_HIT, slot,
-                   uvec4(floatBitsToUint(hit.t), hit.primitive, hit.instance, floatBitsToUint(before)));
+        store_path(
+            PATH_HIT, slot,
+            uvec4(floatBitsToUint(hit.t), hit.primitive, hit.instance, floatBitsToUint(before)));
     }
     enqueue(queue, slot);
 }

@@ -5,7 +5,8 @@
 // Traces shadow rays: what reaches a path from the light it chose.   SHADOW queue -> radiance
 
 /// Transmittance along a part of the ray that no surface interrupts.
-vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p, inout uint step) {
+vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p,
+                          inout uint step) {
     const Medium medium = load_medium(index);
     if (is_tracked(medium)) return track_transmittance(medium, origin, direction, t, p, step);
     return transmittance(medium, column_length(medium, origin, direction, t));
@@ -20,9 +21,11 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
         const Hit hit = trace(origin, direction, distance, any, target);
         const bool is_free = hit.primitive == NONE;
         const ShapeRecord shape = load_shape(is_free ? 0u : shape_of(hit.primitive));
-        if (!is_free && (has_interfaces == 0u || (shape.flags & SHAPE_INTERFACE) == 0u)) return vec3(0);
+        if (!is_free && (has_interfaces == 0u || (shape.flags & SHAPE_INTERFACE) == 0u))
+            return vec3(0);
         if (has_media != 0u && medium != VACUUM)
-            result *= medium_transmittance(medium, origin, direction, is_free ? distance : hit.t, p, step);
+            result *= medium_transmittance(medium, origin, direction, is_free ? distance : hit.t, p,
+                                           step);
         if (is_free || is_black(result)) return result;
         const SurfacePoint s = surface_point(origin, direction, hit);
         medium = medium_beyond(shape, s, direction, medium);

@@ -2,13 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Flies paths through media on voxels and spherical atmospheres: delta tracking against local majorants. Absorption is a
-// weight at null collisions, emission is collected at every tentative one.
+// Flies paths through media on voxels and spherical atmospheres: delta tracking against local
+// majorants. Absorption is a weight at null collisions, emission is collected at every tentative
+// one.
 //
-//   TRACK queue -> VOLUME | SURFACE | INTERFACE | ENDED queue, or tracking goes on in the next round
+//   TRACK queue -> VOLUME | SURFACE | INTERFACE | ENDED queue, or tracking goes on in the next
+//   round
 
-/// Weight of a tentative collision that was taken for real or null, over the density of that choice, and the
-/// spectral ratios after it (lib/medium.glsl).
+/// Weight of a tentative collision that was taken for real or null, over the density of that
+/// choice, and the spectral ratios after it (lib/medium.glsl).
 void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, bool is_real) {
     const vec3 f = is_real ? scattered : 1.0 - scattered - absorbed;
     const vec3 density = is_real ? scattered : 1.0 - scattered;
@@ -44,7 +46,8 @@ void main() {
             is_real = unit_float(words.z) < scattered[is_chromatic != 0u ? p.hero : 0u];
             weigh_collision(p, absorbed, scattered, is_real);
             const vec3 extinction = absorbed + scattered;
-            if (max(extinction.x, max(extinction.y, extinction.z)) > 1.0001) ++mishaps[HEALTH_MAJORANT];
+            if (max(extinction.x, max(extinction.y, extinction.z)) > 1.0001)
+                ++mishaps[HEALTH_MAJORANT];
             ++p.event;
             goes_on = !is_real && t < f.t_end && !is_black(p.throughput);
         }
@@ -59,5 +62,8 @@ void main() {
     if (has_emission != 0u) store_radiance(slot, p);
     report_health();
     if (!goes_on)
-        enqueue(p.status == STATUS_ENDED ? QUEUE_ENDED : is_real ? QUEUE_VOLUME : queue_of_surface(hit.y), slot);
+        enqueue(p.status == STATUS_ENDED ? QUEUE_ENDED
+                : is_real                ? QUEUE_VOLUME
+                                         : queue_of_surface(hit.y),
+                slot);
 }

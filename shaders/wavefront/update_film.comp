@@ -28,10 +28,12 @@ void main() {
         const float before = float(first - min(first, push.first_sample));
         const float count = float(end - max(first, push.first_sample));
         const vec4 all = sum + compensation;
-        // Of a filter with negative parts, the weights of a few samples can cancel: there is no mean yet.
+        // Of a filter with negative parts, the weights of a few samples can cancel: there is no
+        // mean yet.
         if (before > 0.0 && all.w >= 0.5 * before) {
-            // Welford's update by a batch of `count` samples after `before` samples, with the residual of
-            // the ratio estimator sum(w L) / sum(w): for positive filters it is Welford's exactly.
+            // Welford's update by a batch of `count` samples after `before` samples, with the
+            // residual of the ratio estimator sum(w L) / sum(w): for positive filters it is
+            // Welford's exactly.
             const vec3 d = value.xyz - all.xyz * (value.w / all.w);
             residual.xyz += d * d * (before / (count * (before + count)));
         }

@@ -7,7 +7,9 @@
 #include "wavefront/path.glsl"
 
 /// Word `index` of a table of words, four a texel.
-uint table_word(uint texel, uint index) { return fetch_scene(texel + (index >> 2))[index & 3u]; }
+uint table_word(uint texel, uint index) {
+    return fetch_scene(texel + (index >> 2))[index & 3u];
+}
 
 GridRecord load_grid(uint texel) {
     GridRecord g;
@@ -63,8 +65,8 @@ vec3 blackbody(float kelvin) {
     const float x = log(kelvin / BLACKBODY_MIN) * (float(BLACKBODY_ENTRIES - 1u) / span);
     if (!(x > 0.0)) return vec3(0);
     const uint i = min(uint(x), BLACKBODY_ENTRIES - 2u);
-    return colour(mix(floats(fetch_scene(push.blackbody + i)), floats(fetch_scene(push.blackbody + i + 1u)),
-                      min(x - float(i), 1.0)));
+    return colour(mix(floats(fetch_scene(push.blackbody + i)),
+                      floats(fetch_scene(push.blackbody + i + 1u)), min(x - float(i), 1.0)));
 }
 
 /// A line through a medium whose flights are tracked.
@@ -72,7 +74,7 @@ struct Field {
     bool is_grid;
     GridRecord grid;
     ExponentialRecord sphere;
-    vec3 origin;     ///< In index space, or the space of the sphere; distances stay those of the world.
+    vec3 origin; ///< In index space, or the space of the sphere; distances stay those of the world.
     vec3 direction;
     float t_end;     ///< Collisions are before.
     float sigma_max; ///< Extinction of density 1, largest channel.
@@ -95,8 +97,10 @@ Field begin_field(Medium medium, vec3 origin, vec3 direction, float t_surface, o
         f.grid = load_grid(medium.density_record);
         f.origin = transform_point(f.grid.index_from_render, origin);
         f.direction = transform_vector(f.grid.index_from_render, direction);
-        if (has_rgb_grids != 0u && f.grid.density == NONE) f.sigma_max = 1.0; // bounds are of sigma_t itself
-        if (!clip_to_box(f.origin, f.direction, f.grid.lower, f.grid.upper, t_surface, t, f.t_end)) {
+        if (has_rgb_grids != 0u && f.grid.density == NONE)
+            f.sigma_max = 1.0; // bounds are of sigma_t itself
+        if (!clip_to_box(f.origin, f.direction, f.grid.lower, f.grid.upper, t_surface, t,
+                         f.t_end)) {
             t = 0.0;
             f.t_end = 0.0;
         }
@@ -104,8 +108,8 @@ Field begin_field(Medium medium, vec3 origin, vec3 direction, float t_surface, o
     return f;
 }
 
-/// Goes on from t through the cells of the grid until the optical distance tau of the majorants is used up. True
-/// if it is: then t is where, and `bound` the majorant there.
+/// Goes on from t through the cells of the grid until the optical distance tau of the majorants is
+/// used up. True if it is: then t is where, and `bound` the majorant there.
 bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) {
     CellWalk walk = begin_cells(f.origin, f.direction, vec3(f.grid.majorant_lower),
                                 float(f.grid.majorant_size), f.grid.majorant_count, t);
@@ -127,8 +131,8 @@ bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) 
     return collides;
 }
 
-/// Likewise around a sphere, in steps over which the density hardly changes. Along a line the density is largest
-/// where the line is nearest to the centre, so its bound over a step is exact.
+/// Likewise around a sphere, in steps over which the density hardly changes. Along a line the
+/// density is largest where the line is nearest to the centre, so its bound over a step is exact.
 bool next_collision_in_atmosphere(Field f, float tau, inout float t, out float bound) {
     const float speed2 = dot(f.direction, f.direction);
     const float speed = sqrt(speed2);
@@ -152,8 +156,10 @@ bool next_collision_in_atmosphere(Field f, float tau, inout float t, out float b
 bool next_collision(Field f, float tau, inout float t, out float bound) {
     bound = 0.0;
     if (densities == DENSITY_BIT_GRID) return next_collision_in_grid(f, tau, t, bound);
-    if ((densities & DENSITY_BIT_GRID) != 0u && f.is_grid) return next_collision_in_grid(f, tau, t, bound);
-    if ((densities & DENSITY_BIT_SPHERE) != 0u) return next_collision_in_atmosphere(f, tau, t, bound);
+    if ((densities & DENSITY_BIT_GRID) != 0u && f.is_grid)
+        return next_collision_in_grid(f, tau, t, bound);
+    if ((densities & DENSITY_BIT_SPHERE) != 0u)
+        return next_collision_in_atmosphere(f, tau, t, bound);
     return false;
 }
 
@@ -196,7 +202,8 @@ Tap tap_field(Medium medium, Field f, float t, float u) {
     return tap_grid(medium, f.grid, choose_corner(point, u));
 }
 
-/// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks (random.h).
+/// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks
+/// (random.h).
 vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_surface, Path p,
                          inout uint step) {
     float t, bound;
@@ -216,7 +223,8 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
     return result;
 }
 
-/// Length of homogeneous medium of density 1 that equals the line up to t; t itself in a homogeneous medium.
+/// Length of homogeneous medium of density 1 that equals the line up to t; t itself in a
+/// homogeneous medium.
 float column_length(Medium medium, vec3 origin, vec3 direction, float t) {
     if ((densities & DENSITY_BIT_PLANE) == 0u || medium.density_kind != DENSITY_PLANE) return t;
     const ExponentialRecord e = load_exponential(medium.density_record);
@@ -227,7 +235,8 @@ float column_length(Medium medium, vec3 origin, vec3 direction, float t) {
 
 /// The distance at which column_length is `column`.
 float distance_of_column(Medium medium, vec3 origin, vec3 direction, float column) {
-    if ((densities & DENSITY_BIT_PLANE) == 0u || medium.density_kind != DENSITY_PLANE) return column;
+    if ((densities & DENSITY_BIT_PLANE) == 0u || medium.density_kind != DENSITY_PLANE)
+        return column;
     const ExponentialRecord e = load_exponential(medium.density_record);
     const float height = dot(e.up, transform_point(e.medium_from_render, origin) - e.origin);
     const float rise = dot(e.up, transform_vector(e.medium_from_render, direction));

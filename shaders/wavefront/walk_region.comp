@@ -2,12 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Runs whole paths of a scene without a hierarchy (GEOMETRY_NONE, _BOX, _ELLIPSOID): all that such a path needs
-// stands in this stage, and each dispatch runs up to push.run_length events of every path.
+// Runs whole paths of a scene without a hierarchy (GEOMETRY_NONE, _BOX, _ELLIPSOID): all that such
+// a path needs stands in this stage, and each dispatch runs up to push.run_length events of every
+// path.
 //
 //   ray -> ray, radiance
 
-/// One segment and its end. Straight-line code: a CPU driver executes both sides of a branch anyway.
+/// One segment and its end. Straight-line code: a CPU driver executes both sides of a branch
+/// anyway.
 void advance(inout Path p, Medium medium, vec3 environment) {
     bool inside = has_media != 0u && p.medium != VACUUM;
     if (geometry != GEOMETRY_NONE && !inside) {
@@ -21,9 +23,11 @@ void advance(inout Path p, Medium medium, vec3 environment) {
         }
     }
     const uvec4 words = draw(p, BLOCK_PATH);
-    const float boundary = geometry == GEOMETRY_NONE ? INFINITY : region_exit(p.origin, p.direction);
-    const float flight =
-        has_scattering != 0u ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
+    const float boundary =
+        geometry == GEOMETRY_NONE ? INFINITY : region_exit(p.origin, p.direction);
+    const float flight = has_scattering != 0u
+                             ? flight_distance(medium, p.hero, exponential_variate(words.x))
+                             : INFINITY;
     const bool collided = inside && flight < boundary;
     const float t = min(flight, boundary);
     if (inside) travel(p, medium, t, collided);
@@ -32,8 +36,8 @@ void advance(inout Path p, Medium medium, vec3 environment) {
         if (may_scatter(p)) {
             if (lights != 0u) {
                 const LightSample light = light_in_medium(p, medium);
-                p.radiance += light.radiance *
-                              region_transmittance(p.origin, light.direction, light.distance, medium);
+                p.radiance += light.radiance * region_transmittance(p.origin, light.direction,
+                                                                    light.distance, medium);
             }
             scatter_in_medium(p, medium, words);
         }
@@ -51,8 +55,9 @@ void keep_channels(inout Path p) {
     p.sum.xyz = colour(p.sum.xyz);
 }
 
-/// Taking up work is rare, but a CPU driver executes what stands in a loop for all lanes each time: so it
-/// stands in an outer loop, and lanes that run out of samples wait for the end of the inner one.
+/// Taking up work is rare, but a CPU driver executes what stands in a loop for all lanes each time:
+/// so it stands in an outer loop, and lanes that run out of samples wait for the end of the inner
+/// one.
 void main() {
     const uint slot = gl_GlobalInvocationID.x;
     if (slot >= push.slot_count) return;

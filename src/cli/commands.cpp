@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 
 /// Numbers separated by `separator`; throws if there are not exactly `count`, or anything else.
-std::vector<double> parse_numbers(const std::string& option, const std::string& text, char separator,
-                                  std::size_t count, const char* form) {
+std::vector<double> parse_numbers(const std::string& option, const std::string& text,
+                                  char separator, std::size_t count, const char* form) {
     std::vector<double> numbers;
     const char* at = text.data();
     const char* end = at + text.size();
@@ -41,7 +41,8 @@ void apply_size(Scene& scene, const std::string& text) {
     const auto size = parse_numbers("--size", text, 'x', 2, "WxH, e.g. 640x480");
     const auto valid = [](double n) { return n >= 1 && n <= 65535 && n == std::floor(n); };
     if (!valid(size[0]) || !valid(size[1]))
-        throw Error(ExitStatus::bad_input, fmt::format("--size {} (expected whole numbers from 1 to 65535)", text));
+        throw Error(ExitStatus::bad_input,
+                    fmt::format("--size {} (expected whole numbers from 1 to 65535)", text));
     Film& film = scene.film;
     const double x_scale = size[0] / film.width, y_scale = size[1] / film.height;
     film.width = static_cast<int>(size[0]);
@@ -59,10 +60,13 @@ void apply_size(Scene& scene, const std::string& text) {
 void apply_crop(Scene& scene, const std::string& text) {
     const auto c = parse_numbers("--crop", text, ',', 4, "X0,X1,Y0,Y1");
     if (!(0 <= c[0] && c[0] < c[1] && c[1] <= 1 && 0 <= c[2] && c[2] < c[3] && c[3] <= 1))
-        throw Error(ExitStatus::bad_input,
-                    fmt::format("--crop {} (expected 0 <= X0 < X1 <= 1 and 0 <= Y0 < Y1 <= 1)", text));
+        throw Error(
+            ExitStatus::bad_input,
+            fmt::format("--crop {} (expected 0 <= X0 < X1 <= 1 and 0 <= Y0 < Y1 <= 1)", text));
     const Film& film = scene.film;
-    const auto pixel = [](double share, int size) { return static_cast<int>(std::ceil(share * size)); };
+    const auto pixel = [](double share, int size) {
+        return static_cast<int>(std::ceil(share * size));
+    };
     scene.film.bounds = {pixel(c[0], film.width), pixel(c[1], film.width), pixel(c[2], film.height),
                          pixel(c[3], film.height)};
 }
@@ -81,7 +85,8 @@ Scene load_scene(const SceneOptions& options) {
     if (options.seed) scene.seed = *options.seed;
     if (options.max_depth) scene.integrator.max_depth = *options.max_depth;
     if (options.integrator)
-        scene.integrator.kind = *options.integrator == "path" ? Integrator::Kind::path : Integrator::Kind::volpath;
+        scene.integrator.kind =
+            *options.integrator == "path" ? Integrator::Kind::path : Integrator::Kind::volpath;
     return scene;
 }
 
@@ -101,9 +106,10 @@ int run_devices(const DevicesOptions& options) {
         std::printf("%s\n", list.dump(2).c_str());
     } else {
         for (std::size_t i = 0; i < devices.size(); ++i)
-            std::printf("%zu: %s\n   %s, %s, Vulkan %s\n   %s\n", i, devices[i].name.c_str(),
-                        devices[i].type.c_str(), devices[i].driver.c_str(), devices[i].api_version.c_str(),
-                        devices[i].missing.empty() ? "usable" : ("lacks " + devices[i].missing).c_str());
+            std::printf(
+                "%zu: %s\n   %s, %s, Vulkan %s\n   %s\n", i, devices[i].name.c_str(),
+                devices[i].type.c_str(), devices[i].driver.c_str(), devices[i].api_version.c_str(),
+                devices[i].missing.empty() ? "usable" : ("lacks " + devices[i].missing).c_str());
         std::printf("reference: the renderer in double precision on the CPU, for comparison\n");
     }
     return static_cast<int>(devices.empty() ? ExitStatus::no_device : ExitStatus::done);

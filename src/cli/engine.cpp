@@ -17,7 +17,9 @@ using nlohmann::json;
 json effects_json(const Effects& effects) {
     json list = json::object();
     for (const Effect& e : effects.list)
-        list[e.name] = e.value == "yes" ? json(true) : e.value == "no" ? json(false) : json(e.value);
+        list[e.name] = e.value == "yes"  ? json(true)
+                       : e.value == "no" ? json(false)
+                                         : json(e.value);
     return list;
 }
 
@@ -56,9 +58,8 @@ void DeviceEngine::describe(json& stats) const {
     stats["seconds"]["build"] = renderer_.build_seconds();
     stats["seconds"]["compile"] = renderer_.compile_seconds();
     for (const StageTime& stage : renderer_.stage_times())
-        stats["stages"].push_back({{"name", stage.name},
-                                   {"dispatches", stage.dispatches},
-                                   {"seconds", stage.seconds}});
+        stats["stages"].push_back(
+            {{"name", stage.name}, {"dispatches", stage.dispatches}, {"seconds", stage.seconds}});
     for (const auto& [name, bytes] : renderer_.wavefront().memory())
         stats["memory_bytes"][name] = bytes;
 }
@@ -121,7 +122,8 @@ std::uint32_t ReferenceEngine::render(std::uint32_t first_sample, std::uint32_t 
     residuals_.assign(pixel_count(), glm::dvec3(0));
     samples_ = batches_ = 0;
     std::uint32_t batch = 0;
-    while (shared::batch_first_sample(batch + 1) <= first_sample) ++batch;
+    while (shared::batch_first_sample(batch + 1) <= first_sample)
+        ++batch;
     for (std::uint32_t sample = first_sample; sample < end_sample; ++batch) {
         const std::uint32_t end = std::min(end_sample, shared::batch_first_sample(batch + 1));
         const auto go_on = [&](double share) {

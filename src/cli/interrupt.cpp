@@ -26,6 +26,8 @@ void watch_interrupts() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-bool was_interrupted() { return interrupted; }
+bool was_interrupted() {
+    return interrupted;
+}
 
 } // namespace tyndall::cli

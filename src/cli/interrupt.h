@@ -3,8 +3,8 @@
 
 namespace tyndall::cli {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; the second ends the program at once with
-/// status 130.
+/// From now on the first SIGINT or SIGTERM only sets a flag; the second ends the program at once
+/// with status 130.
 void watch_interrupts();
 
 bool was_interrupted();

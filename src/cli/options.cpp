@@ -21,7 +21,8 @@ void add_scene_options(CLI::App& app, SceneOptions& o) {
 }
 
 void add_device_options(CLI::App& app, DeviceOptions& o) {
-    app.add_option("--device", o.device, "Device name or index (see `tyndall devices`), or reference");
+    app.add_option("--device", o.device,
+                   "Device name or index (see `tyndall devices`), or reference");
     app.add_flag("--validate", o.validate, "Run with the Vulkan validation layer");
     app.add_option("--slots", o.tuning.slots, "Paths in flight (does not change the image)");
     app.add_option("--run-length", o.tuning.run_length,
@@ -34,10 +35,15 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
     CLI::App* command = app.add_subcommand("render", "Render a scene");
     add_scene_options(*command, o.scene);
     add_device_options(*command, o.device);
-    command->add_option("-o,--output", o.outputs, "Image file by extension: .exr .png .hdr .tif (repeatable)")
+    command
+        ->add_option("-o,--output", o.outputs,
+                     "Image file by extension: .exr .png .hdr .tif (repeatable)")
         ->allow_extra_args(false);
-    command->add_option("--time", o.time, "End after this many seconds")->check(CLI::PositiveNumber);
-    command->add_option("--write-interval", o.write_interval, "Write the image so far every so many seconds")
+    command->add_option("--time", o.time, "End after this many seconds")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--write-interval", o.write_interval,
+                     "Write the image so far every so many seconds")
         ->check(CLI::PositiveNumber);
     command->add_option("--stats", o.stats, "Write statistics as JSON");
     command->add_flag("--strict", o.strict, "Fail if any contribution had to be dropped");
@@ -50,10 +56,12 @@ void add_verify(CLI::App& app, VerifyOptions& o, int& status) {
         "verify", "Test the device's image of a scene against the reference renderer");
     add_scene_options(*command, o.scene);
     add_device_options(*command, o.device);
-    command->add_option("--batches", o.batches, "Independent batches that the samples are split into")
+    command
+        ->add_option("--batches", o.batches, "Independent batches that the samples are split into")
         ->check(CLI::Range(4, 256));
-    command->add_option("--corrupt", o.corrupt,
-                        "Control: perturb the device's image by this fraction; it must be rejected");
+    command->add_option(
+        "--corrupt", o.corrupt,
+        "Control: perturb the device's image by this fraction; it must be rejected");
     command->add_flag("--json", o.json, "Print the result as JSON");
     command->add_flag("--quiet", o.quiet, "No progress");
     command->callback([&] { status = run_verify(o); });

@@ -72,7 +72,8 @@ int run_devices(const DevicesOptions& options);
 /// Parses the command line and runs what it asks for.
 int run(int argc, char** argv);
 
-/// Reads the scene, prints its warnings, and applies the changes. Throws Error (bad usage: bad_input).
+/// Reads the scene, prints its warnings, and applies the changes. Throws Error (bad usage:
+/// bad_input).
 Scene load_scene(const SceneOptions& options);
 
 } // namespace tyndall::cli

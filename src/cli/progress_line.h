@@ -1,5 +1,5 @@
-/// How far a render is, on stderr: one line that is rewritten on a terminal, else a plain line now and
-/// then.
+/// How far a render is, on stderr: one line that is rewritten on a terminal, else a plain line now
+/// and then.
 #pragma once
 
 #include <chrono>

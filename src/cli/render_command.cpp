@@ -52,14 +52,15 @@ std::uint32_t Job::end_sample() const {
 
 std::string Job::progress_text(const Progress& progress) const {
     const double seconds = seconds_since(render_start_);
-    const double pixels = static_cast<double>(scene_.film.bounds.width()) * scene_.film.bounds.height();
+    const double pixels =
+        static_cast<double>(scene_.film.bounds.width()) * scene_.film.bounds.height();
     const double rate = progress.paths / std::max(seconds, 1e-9);
     double left = (progress.end_samples * pixels - progress.paths) / std::max(rate, 1e-9);
     if (options_.time) left = std::min(left, *options_.time - seconds_since(start_));
     left = std::max(0.0, left);
     return fmt::format("{:5.1f} %  {} spp  {:.2f} Mpaths/s  {} elapsed  {} left",
-                       100 * seconds / std::max(seconds + left, 1e-9), progress.samples, rate * 1e-6,
-                       format_seconds(seconds), format_seconds(left));
+                       100 * seconds / std::max(seconds + left, 1e-9), progress.samples,
+                       rate * 1e-6, format_seconds(seconds), format_seconds(left));
 }
 
 bool Job::keep_going(const Progress& progress) {
@@ -124,6 +125,8 @@ int Job::run() {
 
 } // namespace
 
-int run_render(const RenderOptions& options) { return Job(options).run(); }
+int run_render(const RenderOptions& options) {
+    return Job(options).run();
+}
 
 } // namespace tyndall::cli

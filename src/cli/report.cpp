@@ -15,7 +15,8 @@ namespace {
 using nlohmann::json;
 
 double path_count(const Scene& scene, const RenderReport& report) {
-    return static_cast<double>(scene.film.bounds.width()) * scene.film.bounds.height() * report.samples;
+    return static_cast<double>(scene.film.bounds.width()) * scene.film.bounds.height() *
+           report.samples;
 }
 
 Matrix44 to_matrix44(const glm::dmat4& m) {
@@ -61,14 +62,16 @@ std::optional<double> relative_rmse(const Image& film, std::uint32_t samples) {
     double variance = 0, square = 0;
     for (std::size_t i = 0; i < film.pixels.size(); i += 6)
         for (std::size_t c = 0; c < 3; ++c) {
-            square += static_cast<double>(film.pixels[i + c]) * static_cast<double>(film.pixels[i + c]);
+            square +=
+                static_cast<double>(film.pixels[i + c]) * static_cast<double>(film.pixels[i + c]);
             variance += static_cast<double>(film.pixels[i + 3 + c]);
         }
     if (square == 0) return std::nullopt;
     return std::sqrt(variance / square);
 }
 
-ImageAttributes image_attributes(const Scene& scene, const Engine& engine, const RenderReport& report) {
+ImageAttributes image_attributes(const Scene& scene, const Engine& engine,
+                                 const RenderReport& report) {
     const glm::dmat4 camera_from_world = glm::inverse(scene.camera.world_from_camera);
     ImageAttributes attributes;
     attributes.full_width = scene.film.width;
@@ -124,16 +127,17 @@ void write_stats(const std::string& file, const Scene& scene, const Engine& engi
 }
 
 std::string closing_text(const Scene& scene, const Engine& engine, const RenderReport& report) {
-    std::string text =
-        fmt::format("{} spp in {}, {:.2f} Mpaths/s", report.samples, format_seconds(report.seconds.render),
-                    path_count(scene, report) * 1e-6 / std::max(report.seconds.render, 1e-9));
+    std::string text = fmt::format(
+        "{} spp in {}, {:.2f} Mpaths/s", report.samples, format_seconds(report.seconds.render),
+        path_count(scene, report) * 1e-6 / std::max(report.seconds.render, 1e-9));
     if (const auto error = relative_rmse(report.film, report.samples))
         text += fmt::format(", {:.2f} % relative error", 100 * *error);
     text += '\n';
     const HealthCounts counts = engine.health();
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
         if (counts[kind] > 0)
-            text += fmt::format("warning: {} contributions dropped: {}\n", counts[kind], kHealthNames[kind]);
+            text += fmt::format("warning: {} contributions dropped: {}\n", counts[kind],
+                                kHealthNames[kind]);
     return text;
 }
 

@@ -16,12 +16,13 @@ struct RenderReport {
     } seconds;
 };
 
-/// Relative RMSE of the image: sqrt(sum of variances / sum of squared means) over pixels and channels. None as
-/// long as there is no variance (a single batch, or a picture that is black).
+/// Relative RMSE of the image: sqrt(sum of variances / sum of squared means) over pixels and
+/// channels. None as long as there is no variance (a single batch, or a picture that is black).
 std::optional<double> relative_rmse(const Image& film, std::uint32_t samples);
 
 /// EXR attributes: pbrt's names and tyndall:*.
-ImageAttributes image_attributes(const Scene& scene, const Engine& engine, const RenderReport& report);
+ImageAttributes image_attributes(const Scene& scene, const Engine& engine,
+                                 const RenderReport& report);
 
 /// The JSON of --stats, written whole or not at all. Throws Error.
 void write_stats(const std::string& file, const Scene& scene, const Engine& engine,

@@ -1,7 +1,7 @@
 /// Errors: how the library says that something went wrong.
 ///
-/// Bugs assert (TYNDALL_ASSERT). Bad input and a bad environment throw Error, which carries the exit
-/// status of the program; it is caught once, in main. Expected absence is std::optional.
+/// Bugs assert (TYNDALL_ASSERT). Bad input and a bad environment throw Error, which carries the
+/// exit status of the program; it is caught once, in main. Expected absence is std::optional.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,8 @@ struct SourceLocation {
 /// "file:line:column", or "file" without a line, or "" without a file.
 std::string to_string(const SourceLocation& where);
 
-/// Something that the user or the machine got wrong. what() is complete: it names what failed and why.
+/// Something that the user or the machine got wrong. what() is complete: it names what failed and
+/// why.
 class Error : public std::runtime_error {
   public:
     Error(ExitStatus status, const std::string& what) : std::runtime_error(what), status_(status) {}
@@ -40,7 +41,8 @@ class Error : public std::runtime_error {
     ExitStatus status_;
 };
 
-/// One or more errors in scene files, one line each: "file:line:column: error: what (expected ...)".
+/// One or more errors in scene files, one line each: "file:line:column: error: what (expected
+/// ...)".
 class SceneError : public Error {
   public:
     explicit SceneError(std::vector<std::string> messages);

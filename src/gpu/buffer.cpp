@@ -50,9 +50,8 @@ Buffer::Buffer(const Context& context, std::string name, std::uint64_t bytes,
     const std::string attempt =
         fmt::format("create buffer \"{}\" ({})", name, format_bytes(bytes_));
     const VkDevice device = context.device();
-    const VkBufferCreateInfo create{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                    .size = bytes_,
-                                    .usage = usage(options)};
+    const VkBufferCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes_, .usage = usage(options)};
     VkBuffer buffer = VK_NULL_HANDLE;
     check(vkCreateBuffer(device, &create, nullptr, &buffer), attempt);
     buffer_ = {device, buffer};
@@ -63,8 +62,7 @@ Buffer::Buffer(const Context& context, std::string name, std::uint64_t bytes,
     const VkMemoryAllocateInfo allocate{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
         .allocationSize = needs.size,
-        .memoryTypeIndex =
-            context.memory_type(needs.memoryTypeBits, memory_properties(options))};
+        .memoryTypeIndex = context.memory_type(needs.memoryTypeBits, memory_properties(options))};
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device, &allocate, nullptr, &memory), attempt);
     memory_ = {device, memory};

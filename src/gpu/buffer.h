@@ -8,16 +8,17 @@
 
 namespace tyndall::gpu {
 
-/// A buffer in device memory. Every buffer can be a storage buffer and a transfer source and target.
-/// With `texels` it can also be seen as a texel buffer, as far as the device's maxTexelBufferElements
-/// allows.
+/// A buffer in device memory. Every buffer can be a storage buffer and a transfer source and
+/// target. With `texels` it can also be seen as a texel buffer, as far as the device's
+/// maxTexelBufferElements allows.
 class Buffer {
   public:
     struct Options {
-        bool texels = false;       ///< May be bound as texel buffer of texel_format.
-        VkFormat texel_format = VK_FORMAT_R32G32B32A32_UINT; ///< Or rgba16f, rgba32f: those only to be read.
-        bool indirect = false;     ///< May hold indirect dispatch arguments.
-        bool host_visible = false; ///< Mapped for the life of the buffer; see mapped().
+        bool texels = false; ///< May be bound as texel buffer of texel_format.
+        VkFormat texel_format =
+            VK_FORMAT_R32G32B32A32_UINT; ///< Or rgba16f, rgba32f: those only to be read.
+        bool indirect = false;           ///< May hold indirect dispatch arguments.
+        bool host_visible = false;       ///< Mapped for the life of the buffer; see mapped().
     };
     Buffer() = default;
     /// Throws Error, naming the buffer and its size, if memory or a limit does not allow it.

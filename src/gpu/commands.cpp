@@ -32,24 +32,25 @@ std::vector<double> Timestamps::intervals() const {
                               ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) return seconds; // not all were written
     for (std::uint32_t i = 0; i + 1 < count_; ++i)
-        seconds[i] = static_cast<double>(ticks[i + 1] - ticks[i]) * context_->timestamp_period() * 1e-9;
+        seconds[i] =
+            static_cast<double>(ticks[i + 1] - ticks[i]) * context_->timestamp_period() * 1e-9;
     return seconds;
 }
 
 Commands::Commands(const Context& context) : context_(&context) {
     const VkDevice device = context.device();
-    const VkCommandPoolCreateInfo create_pool{
-        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-        .queueFamilyIndex = context.queue_family()};
+    const VkCommandPoolCreateInfo create_pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                              .flags =
+                                                  VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                                              .queueFamilyIndex = context.queue_family()};
     VkCommandPool pool = VK_NULL_HANDLE;
     check(vkCreateCommandPool(device, &create_pool, nullptr, &pool), "create a command pool");
     pool_ = {device, pool};
-    const VkCommandBufferAllocateInfo allocate{
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = pool,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 1};
+    const VkCommandBufferAllocateInfo allocate{.sType =
+                                                   VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                               .commandPool = pool,
+                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                               .commandBufferCount = 1};
     check(vkAllocateCommandBuffers(device, &allocate, &commands_), "allocate a command buffer");
     const VkFenceCreateInfo create_fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence fence = VK_NULL_HANDLE;
@@ -79,7 +80,8 @@ void Commands::dispatch(const Stage& stage, std::uint32_t invocations) {
     vkCmdDispatch(commands_, (invocations + size - 1) / size, 1, 1);
 }
 
-void Commands::dispatch_indirect(const Stage& stage, const Buffer& arguments, std::uint64_t offset) {
+void Commands::dispatch_indirect(const Stage& stage, const Buffer& arguments,
+                                 std::uint64_t offset) {
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, stage.pipeline());
     vkCmdDispatchIndirect(commands_, arguments.get(), offset);
 }
@@ -115,7 +117,8 @@ void Commands::reset(const Timestamps& timestamps) {
 
 void Commands::mark(const Timestamps& timestamps, std::uint32_t index) {
     if (context_->timestamp_period() > 0)
-        vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps.pool(), index);
+        vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps.pool(),
+                            index);
 }
 
 void Commands::submit() {

@@ -13,8 +13,8 @@ namespace tyndall::gpu {
 class Timestamps {
   public:
     Timestamps(const Context& context, std::uint32_t count);
-    /// Seconds between consecutive points, count - 1 of them; all 0 where the device has no clock. The
-    /// submission that wrote them must have ended.
+    /// Seconds between consecutive points, count - 1 of them; all 0 where the device has no clock.
+    /// The submission that wrote them must have ended.
     std::vector<double> intervals() const;
     VkQueryPool pool() const { return pool_.get(); }
     std::uint32_t count() const { return count_; }
@@ -38,8 +38,8 @@ class Commands {
     void dispatch(const Stage& stage, std::uint32_t invocations);
     /// Runs the workgroups that the device wrote at `offset` of `arguments`.
     void dispatch_indirect(const Stage& stage, const Buffer& arguments, std::uint64_t offset);
-    /// Makes everything written so far visible to everything after: shaders, indirect arguments, transfers,
-    /// and the host.
+    /// Makes everything written so far visible to everything after: shaders, indirect arguments,
+    /// transfers, and the host.
     void barrier();
     void copy(const Buffer& from, std::uint64_t from_offset, const Buffer& to,
               std::uint64_t to_offset, std::uint64_t bytes);

@@ -20,18 +20,30 @@ constexpr const char* kInstallHint =
 
 const char* result_text(VkResult result) {
     switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of host memory";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
-    case VK_ERROR_INITIALIZATION_FAILED: return "initialization failed";
-    case VK_ERROR_DEVICE_LOST: return "the device was lost";
-    case VK_ERROR_MEMORY_MAP_FAILED: return "memory could not be mapped";
-    case VK_ERROR_LAYER_NOT_PRESENT: return "a layer is not installed";
-    case VK_ERROR_EXTENSION_NOT_PRESENT: return "an extension is not present";
-    case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is not present";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "the driver is incompatible";
-    case VK_ERROR_TOO_MANY_OBJECTS: return "too many objects";
-    case VK_TIMEOUT: return "timed out";
-    default: return "Vulkan error";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "out of host memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "out of device memory";
+    case VK_ERROR_INITIALIZATION_FAILED:
+        return "initialization failed";
+    case VK_ERROR_DEVICE_LOST:
+        return "the device was lost";
+    case VK_ERROR_MEMORY_MAP_FAILED:
+        return "memory could not be mapped";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        return "a layer is not installed";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        return "an extension is not present";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return "a feature is not present";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "the driver is incompatible";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "too many objects";
+    case VK_TIMEOUT:
+        return "timed out";
+    default:
+        return "Vulkan error";
     }
 }
 
@@ -42,11 +54,16 @@ std::string version_text(std::uint32_t version) {
 
 const char* type_text(VkPhysicalDeviceType type) {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "cpu";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    default:
+        return "other";
     }
 }
 
@@ -122,8 +139,9 @@ bool is_number(const std::string& text) {
 std::size_t choose(const std::vector<DeviceInfo>& devices, const std::string& selector) {
     std::string names;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        names += fmt::format("\n  {}: {}{}", i, devices[i].name,
-                             devices[i].missing.empty() ? "" : " (lacks " + devices[i].missing + ")");
+        names +=
+            fmt::format("\n  {}: {}{}", i, devices[i].name,
+                        devices[i].missing.empty() ? "" : " (lacks " + devices[i].missing + ")");
     if (devices.empty())
         throw Error(ExitStatus::no_device, fmt::format("no Vulkan device: {}", kInstallHint));
 
@@ -205,7 +223,9 @@ Context::Context(const ContextOptions& options) {
     }
 }
 
-Context::~Context() { destroy(); }
+Context::~Context() {
+    destroy();
+}
 
 void Context::destroy() {
     if (device_) {
@@ -245,7 +265,8 @@ void Context::create_instance(bool validate) {
         create.ppEnabledExtensionNames = extensions.data();
     }
     const VkResult result = vkCreateInstance(&create, nullptr, &instance_);
-    if (validate && (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT))
+    if (validate &&
+        (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT))
         throw Error(ExitStatus::failed, "cannot validate: the Vulkan validation layer is not "
                                         "installed (package vulkan-validationlayers)");
     if (result != VK_SUCCESS)
@@ -300,11 +321,11 @@ std::uint32_t Context::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags 
 
 void Context::name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!messenger_) return;
-    const VkDebugUtilsObjectNameInfoEXT info{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-        .objectType = type,
-        .objectHandle = handle,
-        .pObjectName = name.c_str()};
+    const VkDebugUtilsObjectNameInfoEXT info{.sType =
+                                                 VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .objectType = type,
+                                             .objectHandle = handle,
+                                             .pObjectName = name.c_str()};
     vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 

@@ -27,8 +27,8 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 struct ContextOptions {
-    /// Index into list_devices(), or a part of a device's name (any case). Empty: the first usable device,
-    /// discrete before integrated before virtual before CPU.
+    /// Index into list_devices(), or a part of a device's name (any case). Empty: the first usable
+    /// device, discrete before integrated before virtual before CPU.
     std::string device;
     /// Turns on the validation layer with synchronization validation; its messages are counted and
     /// printed to stderr. Throws if the layer is not installed.

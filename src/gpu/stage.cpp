@@ -53,9 +53,10 @@ void check_size(const Context& context, const Buffer& buffer, const char* what) 
     const std::uint64_t limit = context.limits().maxStorageBufferRange;
     if (buffer.bytes() > limit)
         throw Error(ExitStatus::failed,
-                    fmt::format("the {} takes {}, {} more than {} can bind as one buffer ({})", what,
-                                format_bytes(buffer.bytes()), format_bytes(buffer.bytes() - limit),
-                                context.info().name, format_bytes(limit)));
+                    fmt::format("the {} takes {}, {} more than {} can bind as one buffer ({})",
+                                what, format_bytes(buffer.bytes()),
+                                format_bytes(buffer.bytes() - limit), context.info().name,
+                                format_bytes(limit)));
 }
 
 constexpr std::array<const char*, shared::TEXEL_BUFFER_COUNT> kTexelBufferNames{
@@ -94,11 +95,11 @@ Descriptors::Descriptors(const Context& context, const Bindings& bindings, std::
           "create the pipeline layout");
     layout_ = {device, pipeline_layout};
 
-    const VkDescriptorSetAllocateInfo allocate{
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = pool_.get(),
-        .descriptorSetCount = 1,
-        .pSetLayouts = &set_layout};
+    const VkDescriptorSetAllocateInfo allocate{.sType =
+                                                   VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                               .descriptorPool = pool_.get(),
+                                               .descriptorSetCount = 1,
+                                               .pSetLayouts = &set_layout};
     check(vkAllocateDescriptorSets(device, &allocate, &set_), "allocate the descriptor set");
 
     std::array<VkBufferView, shared::TEXEL_BUFFER_COUNT> views{};
@@ -116,8 +117,9 @@ Descriptors::Descriptors(const Context& context, const Bindings& bindings, std::
             continue;
         }
         const bool is_twin = i < shared::STORAGE_TWIN + shared::TEXEL_BUFFER_COUNT;
-        const Buffer& buffer = is_twin ? *bindings.texel_buffers[i - shared::STORAGE_TWIN]
-                                       : *(i == shared::BINDING_CONTROL ? bindings.control : bindings.queues);
+        const Buffer& buffer =
+            is_twin ? *bindings.texel_buffers[i - shared::STORAGE_TWIN]
+                    : *(i == shared::BINDING_CONTROL ? bindings.control : bindings.queues);
         if (is_twin && buffer.exceeds_view()) {
             check_size(context, buffer, kTexelBufferNames[i - shared::STORAGE_TWIN]);
             storage_fallback_ |= 1u << (i - shared::STORAGE_TWIN);
@@ -134,19 +136,18 @@ Stage::Stage(const Context& context, const Descriptors& descriptors, std::string
              std::span<const std::uint32_t> spirv, const shared::Features& features)
     : name_(std::move(name)), workgroup_size_(features.workgroup_size) {
     const VkDevice device = context.device();
-    const VkShaderModuleCreateInfo create_module{
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = spirv.size_bytes(),
-        .pCode = spirv.data()};
+    const VkShaderModuleCreateInfo create_module{.sType =
+                                                     VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                                 .codeSize = spirv.size_bytes(),
+                                                 .pCode = spirv.data()};
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device, &create_module, nullptr, &module),
           "create the shader of stage " + name_);
     const Handle<VkShaderModule, &vkDestroyShaderModule> module_owner(device, module);
 
     const SpecializationTable table = specialization_table();
-    const VkSpecializationInfo specialization{
-        static_cast<std::uint32_t>(table.entries.size()), table.entries.data(), sizeof(features),
-        &features};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(table.entries.size()),
+                                              table.entries.data(), sizeof(features), &features};
     const VkComputePipelineCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,

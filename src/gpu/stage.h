@@ -14,12 +14,14 @@ namespace tyndall::gpu {
 
 /// The buffers behind shaders/shared/bindings.h.
 struct Bindings {
-    std::array<const Buffer*, shared::TEXEL_BUFFER_COUNT> texel_buffers{}; ///< shared::BINDING_SCENE ... shared::BINDING_FILM
+    std::array<const Buffer*, shared::TEXEL_BUFFER_COUNT>
+        texel_buffers{}; ///< shared::BINDING_SCENE ... shared::BINDING_FILM
     const Buffer* control = nullptr;
     const Buffer* queues = nullptr;
 };
 
-/// The one descriptor set, bound once a command buffer, and the pipeline layout (with push constants).
+/// The one descriptor set, bound once a command buffer, and the pipeline layout (with push
+/// constants).
 class Descriptors {
   public:
     /// Throws Error if a buffer is larger than the device can bind, and says by how much.

@@ -47,7 +47,8 @@ class Geometry::NearestHit final : public BoxTree::Visitor {
             point.shading_normal = placement->normal(point.shading_normal);
             id.reset();
         }
-        return SurfaceHit{hit_->where.t, point, &hit_->surface->shape(), id};
+        const Placement* space = hit_->placement ? hit_->placement : &geometry_.world_space_;
+        return SurfaceHit{hit_->where.t, point, &hit_->surface->shape(), id, space};
     }
 
   private:
@@ -93,7 +94,8 @@ Geometry::Group Geometry::make_group(const std::vector<Shape>& shapes,
     return {std::move(surfaces), std::move(items), BoxTree(boxes)};
 }
 
-Geometry::Geometry(const Scene& scene, const dvec3& camera_position) : world_{{}, {}, BoxTree({})} {
+Geometry::Geometry(const Scene& scene, const dvec3& camera_position)
+    : world_space_(glm::translate(dmat4(1), -camera_position)), world_{{}, {}, BoxTree({})} {
     const dmat4 render_from_world = glm::translate(dmat4(1), -camera_position);
     for (const ObjectDefinition& object : scene.objects)
         definitions_.push_back(make_group(object.shapes, dmat4(1), {}));

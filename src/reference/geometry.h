@@ -17,6 +17,8 @@ struct SurfaceHit {
     SurfacePoint point;
     const Shape* shape;
     std::optional<PrimitiveId> id; ///< None in an instance.
+    const Placement*
+        space; ///< Render space from the world, or from the definition of the instance.
 };
 
 class Geometry {
@@ -27,6 +29,8 @@ class Geometry {
     /// The nearest surface with 0 < t < t_max; interfaces are surfaces, too.
     std::optional<SurfaceHit> intersect(const Ray& ray, double t_max) const;
 
+    /// Render space from the world.
+    const Placement& world_space() const { return world_space_; }
     /// One for each of Scene::shapes.
     const std::vector<Surface>& surfaces() const { return world_.surfaces; }
     /// Of all surfaces; empty without any.
@@ -48,6 +52,7 @@ class Geometry {
     static Group make_group(const std::vector<Shape>& shapes, const dmat4& space_from_world,
                             const std::vector<Bounds>& more_boxes);
 
+    Placement world_space_;
     std::vector<Group> definitions_;
     std::vector<Instance> instances_;
     Group world_;

@@ -41,8 +41,13 @@ double emission_integral(const Medium& medium, const Throughput& throughput, int
 
 } // namespace
 
+bool has_channel_grids(const Medium& medium) {
+    const auto* grid = std::get_if<GridDensity>(&medium.density);
+    return grid && (grid->sigma_a[0] || grid->sigma_s[0]);
+}
+
 bool is_grey(const Medium& medium) {
-    return all_equal(medium.sigma_a) && all_equal(medium.sigma_s);
+    return !has_channel_grids(medium) && all_equal(medium.sigma_a) && all_equal(medium.sigma_s);
 }
 
 bool is_scattering(const Medium& medium) {
@@ -89,6 +94,17 @@ Throughput after_segment(const Medium& medium, const Throughput& before, const S
     const double average = mean(before.ratio * probability);
     after.beta = before.beta * contribution / average;
     after.ratio = before.ratio * probability / average;
+    return after;
+}
+
+Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Throughput& before,
+                           bool is_real) {
+    const Rgb probability = is_real ? scattered : 1.0 - scattered;
+    const Rgb contribution = is_real ? scattered : 1.0 - scattered - absorbed;
+    const double average = mean(before.ratio * probability);
+    Throughput after = before;
+    after.beta *= contribution / average;
+    after.ratio *= probability / average;
     return after;
 }
 

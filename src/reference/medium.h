@@ -1,5 +1,6 @@
-/// Homogeneous media: free flights, and what a segment of a path does to its throughput.
+/// Free flights, and what a segment of a path does to its throughput.
 ///
+/// Lengths are those of medium of density 1 (MediumLine::column); in homogeneous media, distances.
 /// Flights are drawn from the scattering coefficient of one channel, the hero; absorption is a
 /// weight in closed form. The choice of the hero is averaged over by the balance heuristic (Wilkie
 /// et al. 2014, "Hero Wavelength Spectral Sampling"), kept normalised so that nothing underflows.
@@ -16,6 +17,9 @@ struct Throughput {
     Rgb ratio{1}; ///< Probability of the path for each hero, over that average; mean 1.
     int hero = 0;
 };
+
+/// The medium has coefficients of its own for each voxel and channel (rgbgrid).
+bool has_channel_grids(const Medium& medium);
 
 /// Channels are alike in sigma_a and in sigma_s: the hero does not matter.
 bool is_grey(const Medium& medium);
@@ -42,6 +46,12 @@ Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const S
 
 /// The throughput after the segment, before scattering.
 Throughput after_segment(const Medium& medium, const Throughput& before, const Segment& segment);
+
+/// The throughput after a tentative collision (reference/tracking.h) that was taken for a real one
+/// with the probability `scattered` of the hero, or else for none.
+/// @param absorbed, scattered  sigma_a and sigma_s over the majorant.
+Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Throughput& before,
+                           bool is_real);
 
 /// exp(-(sigma_a + sigma_s) distance) for each channel; distance may be infinite.
 Rgb transmittance(const Medium& medium, double distance);

@@ -1,6 +1,7 @@
 #include "reference/walk.h"
 
 #include "reference/phase.h"
+#include "reference/tracking.h"
 
 #include <algorithm>
 
@@ -45,24 +46,33 @@ Response respond(const Material& material, const dvec3& normal, const dvec3& tra
 
 PathTracer::PathTracer(const Scene& scene, const Geometry& geometry, const Lights& lights)
     : scene_(scene), geometry_(geometry), lights_(lights),
-      has_media_(scene.integrator.kind == Integrator::Kind::volpath),
-      is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey)) {}
+      is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey)) {
+    if (scene.integrator.kind != Integrator::Kind::volpath) return;
+    for (const Medium& medium : scene.media)
+        media_.emplace_back(medium);
+}
 
-const Medium* PathTracer::medium(int index) const {
-    if (index < 0 || !has_media_) return nullptr;
-    return &scene_.media[static_cast<std::size_t>(index)];
+std::optional<MediumLine> PathTracer::medium_line(const Start& start) const {
+    if (start.in.medium < 0 || media_.empty()) return std::nullopt;
+    return MediumLine(media_[static_cast<std::size_t>(start.in.medium)], *start.in.space,
+                      start.ray);
 }
 
 PathTracer::Start PathTracer::leave_surface(const SurfaceHit& hit, const dvec3& direction,
-                                            int medium_before) const {
+                                            const Surroundings& before) {
     const MediumInterface& media = hit.shape->media;
     const bool outside = glm::dot(direction, hit.point.normal) > 0;
-    const int beyond = outside ? media.outside : media.inside;
-    return {{leave(hit.point, direction), direction},
-            media.is_transition() ? beyond : medium_before};
+    const Surroundings beyond{outside ? media.outside : media.inside, hit.space};
+    return {{leave(hit.point, direction), direction}, media.is_transition() ? beyond : before};
 }
 
-Rgb PathTracer::visibility(Start start, const LightSample& light) const {
+Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPath& random,
+                           std::uint32_t event) const {
+    std::uint32_t step = 0;
+    const auto draw = [&] {
+        const glm::uvec4 words = random.words(event, shared::BLOCK_SHADOW + step++);
+        return std::pair(flight_optical_depth(words.x), unit(words.y));
+    };
     Rgb result(1);
     while (true) {
         double distance = infinity;
@@ -73,12 +83,15 @@ Rgb PathTracer::visibility(Start start, const LightSample& light) const {
             start.ray.direction = offset / distance;
         }
         const std::optional<SurfaceHit> hit = geometry_.intersect(start.ray, distance);
-        if (const Medium* inside = medium(start.medium))
-            result *= transmittance(*inside, hit ? hit->t : distance);
+        const Material* material =
+            hit ? &scene_.materials[static_cast<std::size_t>(hit->shape->material)] : nullptr;
+        if (material && material->kind != Material::Kind::interface) return Rgb(0);
+        const double end = hit ? hit->t : distance;
+        if (const auto line = medium_line(start))
+            result *= line->is_tracked() ? track_transmittance(*line, end, draw)
+                                         : transmittance(line->medium, line->column(end));
         if (!hit || result == Rgb(0)) return result;
-        const Material& material = scene_.materials[static_cast<std::size_t>(hit->shape->material)];
-        if (material.kind != Material::Kind::interface) return Rgb(0);
-        start = leave_surface(*hit, start.ray.direction, start.medium);
+        start = leave_surface(*hit, start.ray.direction, start.in);
     }
 }
 
@@ -86,37 +99,66 @@ Rgb PathTracer::visibility(Start start, const LightSample& light) const {
 class PathTracer::Walk {
   public:
     Walk(const PathTracer& tracer, const Ray& ray, const RandomPath& random)
-        : tracer_(tracer), random_(random), at_{ray, tracer.scene_.camera.medium} {
+        : tracer_(tracer),
+          random_(random), at_{ray,
+                               {tracer.scene_.camera.medium, &tracer.geometry_.world_space()}} {
         if (!tracer_.is_grey_)
             throughput_.hero = choose_hero(unit(random_.words(0, shared::BLOCK_LIGHT).x));
     }
 
     Rgb run() {
         do {
-            ++event_;
-            words_ = random_.words(event_, shared::BLOCK_PATH);
+            next_event();
         } while (step());
         return radiance_;
     }
 
   private:
+    void next_event() {
+        ++event_;
+        words_ = random_.words(event_, shared::BLOCK_PATH);
+    }
+
     /// One segment and what happens at its end. Returns whether the path goes on.
     bool step() {
         const std::optional<SurfaceHit> hit = tracer_.geometry_.intersect(at_.ray, infinity);
-        const double surface_distance = hit ? hit->t : infinity;
-        if (const Medium* medium = tracer_.medium(at_.medium)) {
-            const double flight = flight_distance(*medium, throughput_.hero, words_.x);
-            const bool collision = flight < surface_distance;
-            const Segment segment{std::min(flight, surface_distance), collision};
-            radiance_ += emitted_radiance(*medium, throughput_, segment);
-            throughput_ = after_segment(*medium, throughput_, segment);
-            if (collision) return collide(*medium, flight);
+        if (const auto line = tracer_.medium_line(at_)) {
+            const double end = hit ? hit->t : infinity;
+            const auto collision = line->is_tracked() ? track(*line, end) : fly(*line, end);
+            if (throughput_.beta == Rgb(0)) return false;
+            if (collision) return collide(line->medium, *collision);
         }
         if (!hit) {
             radiance_ += throughput_.beta * tracer_.lights_.background();
             return false;
         }
         return meet(*hit);
+    }
+
+    /// A flight in closed form, to the distance of a collision, if that is before the end.
+    std::optional<double> fly(const MediumLine& line, double end) {
+        const Medium& medium = line.medium;
+        const double column = flight_distance(medium, throughput_.hero, words_.x);
+        const double distance = line.distance(column);
+        const bool collision = distance < end;
+        const Segment segment{collision ? column : line.column(end), collision};
+        radiance_ += emitted_radiance(medium, throughput_, segment);
+        throughput_ = after_segment(medium, throughput_, segment);
+        return collision ? std::optional(distance) : std::nullopt;
+    }
+
+    /// A flight by tracking. Each tentative collision is an event; a real one scatters in the next.
+    std::optional<double> track(const MediumLine& line, double end) {
+        Flight flight(line, end);
+        while (const auto at = flight.next(flight_optical_depth(words_.x), unit(words_.y))) {
+            radiance_ += throughput_.beta * at->absorbed * at->emission;
+            const bool is_real = unit(words_.z) < at->scattered[throughput_.hero];
+            throughput_ = after_collision(at->absorbed, at->scattered, throughput_, is_real);
+            next_event();
+            if (is_real) return at->t;
+            if (throughput_.beta == Rgb(0)) break;
+        }
+        return std::nullopt;
     }
 
     bool collide(const Medium& medium, double distance) {
@@ -132,7 +174,7 @@ class PathTracer::Walk {
                 at_.ray.origin,
                 [&](const dvec3& to_light) { return respond(phase, travel, to_light); },
                 [&](const dvec3& to_light) {
-                    return Start{{at_.ray.origin, to_light}, at_.medium};
+                    return Start{{at_.ray.origin, to_light}, at_.in};
                 });
             vertex_ = {at_.ray.origin, evaluate_phase(phase, angle.one_minus_cosine)};
         }
@@ -146,7 +188,7 @@ class PathTracer::Walk {
         const Material& material =
             tracer_.scene_.materials[static_cast<std::size_t>(hit.shape->material)];
         if (material.kind == Material::Kind::interface) {
-            at_ = tracer_.leave_surface(hit, at_.ray.direction, at_.medium);
+            at_ = leave_surface(hit, at_.ray.direction, at_.in);
             return true;
         }
         return reflect(hit, material);
@@ -162,9 +204,7 @@ class PathTracer::Walk {
         sample_light(
             hit.point.position,
             [&](const dvec3& to_light) { return respond(material, normal, travel, to_light); },
-            [&](const dvec3& to_light) {
-                return tracer_.leave_surface(hit, to_light, at_.medium);
-            });
+            [&](const dvec3& to_light) { return leave_surface(hit, to_light, at_.in); });
         // Proportional to the cosine: a point of the disc, raised to the hemisphere (Malley).
         const dvec2 disk = concentric_disk(unit(words_.y), unit(words_.z));
         const double cosine = std::sqrt(std::max(0.0, 1 - glm::dot(disk, disk)));
@@ -172,7 +212,7 @@ class PathTracer::Walk {
         const dvec3 direction = glm::normalize(around(normal, local));
         vertex_ = {hit.point.position, cosine / pi};
         throughput_.beta *= material.reflectance;
-        at_ = tracer_.leave_surface(hit, direction, at_.medium);
+        at_ = leave_surface(hit, direction, at_.in);
         return survive();
     }
 
@@ -181,14 +221,15 @@ class PathTracer::Walk {
     template<class Respond, class Leave>
     void sample_light(const dvec3& place, Respond&& respond_to, Leave&& start) {
         if (!tracer_.lights_.can_sample()) return;
-        const auto light = tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT));
+        const auto light =
+            tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT));
         if (!light) return;
         const Response response = respond_to(light->direction);
         if (response.value == Rgb(0)) return;
         const double weight =
             light->is_delta ? 1 : mis_weight(light->probability, response.density);
         radiance_ += throughput_.beta * response.value * light->radiance *
-                     tracer_.visibility(start(light->direction), *light) *
+                     tracer_.visibility(start(light->direction), *light, random_, event_) *
                      (weight / light->probability);
     }
 

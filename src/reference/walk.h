@@ -4,6 +4,7 @@
 #include "reference/geometry.h"
 #include "reference/lights.h"
 #include "reference/medium.h"
+#include "reference/placed_medium.h"
 
 namespace tyndall::reference {
 
@@ -18,22 +19,30 @@ class PathTracer {
 
   private:
     class Walk;
+    /// The medium at a place.
+    struct Surroundings {
+        int medium;             ///< Index into Scene::media, or -1.
+        const Placement* space; ///< Of what the medium's shape belongs to.
+    };
     /// A place in a medium, on the way in a direction.
     struct Start {
         Ray ray;
-        int medium;
+        Surroundings in;
     };
 
-    const Medium* medium(int index) const;
+    /// The ray in the medium that it starts in; none in a vacuum.
+    std::optional<MediumLine> medium_line(const Start& start) const;
     /// What a light gives through all interfaces on the way; 0 behind any other surface.
-    Rgb visibility(Start start, const LightSample& light) const;
+    Rgb visibility(Start start, const LightSample& light, const RandomPath& random,
+                   std::uint32_t event) const;
     /// The start of a ray that leaves a surface in a direction.
-    Start leave_surface(const SurfaceHit& hit, const dvec3& direction, int medium_before) const;
+    static Start leave_surface(const SurfaceHit& hit, const dvec3& direction,
+                               const Surroundings& before);
 
     const Scene& scene_;
     const Geometry& geometry_;
     const Lights& lights_;
-    bool has_media_;
+    std::vector<PlacedMedium> media_; ///< Empty if media are ignored.
     bool is_grey_;
 };
 

@@ -1,4 +1,5 @@
-/// Meshes that are boxes: the usual container of a medium, and far cheaper to hit than twelve triangles.
+/// Meshes that are boxes: the usual container of a medium, and far cheaper to hit than twelve
+/// triangles.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,8 +14,9 @@ struct AxisBox {
     bool is_inward = false; ///< The normals point inward.
 };
 
-/// The box whose closed surface the mesh is after the transform, if it is one: each face two triangles (or a
-/// patch) with exactly the corners of an axis-aligned box, all oriented alike. Not so if the mesh has vertex normals.
+/// The box whose closed surface the mesh is after the transform, if it is one: each face two
+/// triangles (or a patch) with exactly the corners of an axis-aligned box, all oriented alike. Not
+/// so if the mesh has vertex normals.
 std::optional<AxisBox> find_box(const Shape& shape, const Mesh& mesh, const glm::dmat4& transform);
 
 } // namespace tyndall

@@ -17,7 +17,7 @@ using namespace shared;
 /// What Embree's callbacks build: a tree of nodes in Embree's own arena.
 struct Node {
     Bounds bounds[2];
-    Node* children[2]{};                       ///< Inner node; null children mean a leaf.
+    Node* children[2]{};                           ///< Inner node; null children mean a leaf.
     const RTCBuildPrimitive* primitives = nullptr; ///< Leaf.
     std::uint32_t count = 0;
 };
@@ -41,9 +41,10 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                   std::size_t count, void*) {
-    void* memory = rtcThreadLocalAlloc(
-        allocator, sizeof(Node) + count * sizeof(RTCBuildPrimitive), alignof(RTCBuildPrimitive));
-    auto* copy = reinterpret_cast<RTCBuildPrimitive*>(static_cast<std::byte*>(memory) + sizeof(Node));
+    void* memory = rtcThreadLocalAlloc(allocator, sizeof(Node) + count * sizeof(RTCBuildPrimitive),
+                                       alignof(RTCBuildPrimitive));
+    auto* copy =
+        reinterpret_cast<RTCBuildPrimitive*>(static_cast<std::byte*>(memory) + sizeof(Node));
     std::copy(primitives, primitives + count, copy);
     auto* leaf = new (memory) Node;
     leaf->primitives = copy;
@@ -51,10 +52,12 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return leaf;
 }
 
-/// Flattens the subtree, parents first; returns its child word. The device's stack holds BVH_DEPTH_MAX words.
+/// Flattens the subtree, parents first; returns its child word. The device's stack holds
+/// BVH_DEPTH_MAX words.
 std::uint32_t flatten(const Node& node, std::uint32_t depth, Bvh& bvh) {
     if (depth > BVH_DEPTH_MAX)
-        throw Error(ExitStatus::failed, fmt::format("a hierarchy is deeper than {}", BVH_DEPTH_MAX));
+        throw Error(ExitStatus::failed,
+                    fmt::format("a hierarchy is deeper than {}", BVH_DEPTH_MAX));
     if (node.primitives) {
         const auto first = static_cast<std::uint32_t>(bvh.order.size());
         for (std::uint32_t i = 0; i < node.count; ++i)
@@ -98,7 +101,8 @@ Bounds round_outward(const glm::dvec3& lower, const glm::dvec3& upper) {
         bounds.lower[i] = static_cast<float>(lower[i]);
         bounds.upper[i] = static_cast<float>(upper[i]);
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        if (bounds.lower[i] > lower[i]) bounds.lower[i] = std::nextafter(bounds.lower[i], -infinity);
+        if (bounds.lower[i] > lower[i])
+            bounds.lower[i] = std::nextafter(bounds.lower[i], -infinity);
         if (bounds.upper[i] < upper[i]) bounds.upper[i] = std::nextafter(bounds.upper[i], infinity);
     }
     return bounds;
@@ -109,8 +113,9 @@ Bvh build_bvh(std::span<const Bounds> primitives, std::uint32_t leaf_size,
     Bvh bvh;
     if (primitives.empty()) return bvh;
     if (primitives.size() > LEAF_FIRST_MASK)
-        throw Error(ExitStatus::failed, fmt::format("{} primitives in one hierarchy are more than {}",
-                                                    primitives.size(), LEAF_FIRST_MASK));
+        throw Error(ExitStatus::failed,
+                    fmt::format("{} primitives in one hierarchy are more than {}",
+                                primitives.size(), LEAF_FIRST_MASK));
     bvh.bounds = primitives[0];
     for (const Bounds& b : primitives) {
         bvh.bounds.lower = glm::min(bvh.bounds.lower, b.lower);
@@ -144,8 +149,9 @@ Bvh build_bvh(std::span<const Bounds> primitives, std::uint32_t leaf_size,
     arguments.createLeaf = create_leaf;
     const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
     if (!root)
-        throw Error(ExitStatus::failed, fmt::format("Embree cannot build a hierarchy (error {})",
-                                                    static_cast<int>(rtcGetDeviceError(device.get()))));
+        throw Error(ExitStatus::failed,
+                    fmt::format("Embree cannot build a hierarchy (error {})",
+                                static_cast<int>(rtcGetDeviceError(device.get()))));
     bvh.order.reserve(primitives.size());
     bvh.root = flatten(*root, 0, bvh);
     return bvh;

@@ -18,8 +18,8 @@ struct Bounds {
 /// Smallest float box that contains the double box.
 Bounds round_outward(const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// A hierarchy over primitives 0 ... n-1. Child words are those of records.h, relative to `nodes` and to
-/// `order`: a leaf's primitives are order[first] ... order[first + count - 1].
+/// A hierarchy over primitives 0 ... n-1. Child words are those of records.h, relative to `nodes`
+/// and to `order`: a leaf's primitives are order[first] ... order[first + count - 1].
 struct Bvh {
     std::uint32_t root = 0;
     std::vector<shared::NodeRecord> nodes;

@@ -1,5 +1,7 @@
 #include "render/effects.h"
 
+#include "shared/records.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
@@ -10,8 +12,12 @@ namespace {
 
 using namespace shared;
 
-bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
-bool is_black(const Rgb& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+bool is_grey(const Rgb& c) {
+    return c.r == c.g && c.g == c.b;
+}
+bool is_black(const Rgb& c) {
+    return c.r == 0 && c.g == 0 && c.b == 0;
+}
 
 /// Collects effects and remembers what called for each.
 class Collector {
@@ -22,7 +28,8 @@ class Collector {
 
   private:
     void add(std::string name, bool on, std::string called_for) {
-        effects_.list.push_back({std::move(name), on ? "yes" : "no", on ? std::move(called_for) : ""});
+        effects_.list.push_back(
+            {std::move(name), on ? "yes" : "no", on ? std::move(called_for) : ""});
     }
     void add_value(std::string name, std::string value, std::string called_for = "") {
         effects_.list.push_back({std::move(name), std::move(value), std::move(called_for)});
@@ -34,6 +41,10 @@ class Collector {
             for (const Shape& shape : scene_.objects[instance.object].shapes)
                 visit(shape);
     }
+    bool has_queue(std::uint32_t queue) const {
+        return effects_.features.surface_queues >> queue & 1u;
+    }
+    void collect_material(const Material& material);
     void collect_geometry();
     void collect_density(const Medium& medium, const std::string& by);
     void collect_media();
@@ -43,7 +54,7 @@ class Collector {
 
     const Scene& scene_;
     Effects effects_;
-    std::string grid_by_, atmosphere_by_, temperature_by_;
+    std::string dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
 };
 
 std::string place(const char* what, const SourceLocation& where) {
@@ -51,29 +62,45 @@ std::string place(const char* what, const SourceLocation& where) {
     return text.empty() ? what : fmt::format("{} at {}", what, text);
 }
 
+/// What the material of a shape calls for, beyond its stage.
+void Collector::collect_material(const Material& material) {
+    shared::Features& f = effects_.features;
+    if (material.kind == Material::Kind::thin_dielectric) f.has_thin_panes = 1;
+    const bool is_dielectric = material.kind == Material::Kind::dielectric ||
+                               material.kind == Material::Kind::thin_dielectric;
+    if (is_dielectric && !is_grey(material.eta))
+        f.has_dispersion = 1, dispersion_by_ = place("material", material.where);
+}
+
 void Collector::collect_geometry() {
     shared::Features& f = effects_.features;
     effects_.region = find_region(scene_);
-    f.has_interfaces = f.has_surfaces = f.has_emitters = f.has_shading_normals = 0;
-    std::string interface_by, surface_by, emitter_by, normals_by;
+    f.has_thin_panes = f.has_dispersion = 0;
+    f.surface_queues = f.has_interfaces = f.has_emitters = f.has_shading_normals = 0;
+    std::string emitter_by, normals_by;
+    std::array<std::string, QUEUE_COUNT> surface_by;
     each_shape([&](const Shape& shape) {
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
         if (mesh && !mesh->normals.empty())
             f.has_shading_normals = 1, normals_by = place("mesh", shape.where);
-        if (scene_.materials[shape.material].kind == Material::Kind::interface) {
-            f.has_interfaces = 1, interface_by = place("shape", shape.where);
-        } else {
-            f.has_surfaces = 1, surface_by = place("shape", shape.where);
-        }
+        const std::uint32_t queue = queue_of(scene_.materials[shape.material]);
+        f.surface_queues |= 1u << queue, surface_by[queue] = place("shape", shape.where);
+        collect_material(scene_.materials[shape.material]);
         if (shape.area_light >= 0) f.has_emitters = 1, emitter_by = place("shape", shape.where);
     });
-    f.geometry = effects_.region                                      ? effects_.region->geometry
+    f.has_interfaces = has_queue(QUEUE_INTERFACE);
+    f.geometry = effects_.region                                     ? effects_.region->geometry
                  : scene_.shapes.empty() && scene_.instances.empty() ? GEOMETRY_NONE
                                                                      : GEOMETRY_BVH;
     constexpr std::array<const char*, 4> names{"nothing", "one box", "one ellipsoid", "hierarchy"};
     add_value("geometry", names[f.geometry]);
-    add("interfaces", f.has_interfaces, interface_by);
-    add("surfaces", f.has_surfaces, surface_by);
+    add("interfaces", f.has_interfaces, surface_by[QUEUE_INTERFACE]);
+    add("diffuse surfaces", has_queue(QUEUE_SURFACE), surface_by[QUEUE_SURFACE]);
+    add("smooth dielectrics", has_queue(QUEUE_DIELECTRIC), surface_by[QUEUE_DIELECTRIC]);
+    add("rough dielectrics", has_queue(QUEUE_ROUGH_DIELECTRIC), surface_by[QUEUE_ROUGH_DIELECTRIC]);
+    add("smooth metal", has_queue(QUEUE_CONDUCTOR), surface_by[QUEUE_CONDUCTOR]);
+    add("rough metal", has_queue(QUEUE_ROUGH_CONDUCTOR), surface_by[QUEUE_ROUGH_CONDUCTOR]);
+    add("dispersion", f.has_dispersion, dispersion_by_);
     add("emitting surfaces", f.has_emitters, emitter_by);
     add("shading normals", f.has_shading_normals, normals_by);
     add("instances", !scene_.instances.empty(), "ObjectInstance");
@@ -92,7 +119,7 @@ void Collector::collect_density(const Medium& medium, const std::string& by) {
         if (!grid->density) {
             // Coefficients by voxel and channel: taken for chromatic without looking at each voxel.
             f.has_rgb_grids = 1;
-            f.is_chromatic = f.has_scattering;
+            f.is_chromatic |= f.has_scattering;
         }
         if (grid->temperature) f.has_temperature = 1, temperature_by_ = by;
     }
@@ -101,8 +128,10 @@ void Collector::collect_density(const Medium& medium, const std::string& by) {
 void Collector::collect_media() {
     shared::Features& f = effects_.features;
     f.densities = f.has_rgb_grids = f.has_temperature = 0;
-    f.has_media = f.has_scattering = f.has_emission = f.is_anisotropic = f.is_chromatic = 0;
-    std::string media_by, scattering_by, emission_by, anisotropic_by, chromatic_by;
+    f.has_media = f.has_scattering = f.has_emission = f.is_anisotropic = 0;
+    f.is_chromatic =
+        f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
+    std::string media_by, scattering_by, emission_by, anisotropic_by, chromatic_by = dispersion_by_;
     std::vector<bool> used(scene_.media.size(), false);
     const auto use = [&](int medium) {
         if (medium >= 0) used[medium] = true;
@@ -135,7 +164,8 @@ void Collector::collect_media() {
     add("spectral MIS", f.is_chromatic, chromatic_by);
     add("grids", f.densities & DENSITY_BIT_GRID, grid_by_);
     add("black body emission", f.has_temperature, temperature_by_);
-    add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE), atmosphere_by_);
+    add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE),
+        atmosphere_by_);
 }
 
 void Collector::collect_lights() {
@@ -156,7 +186,7 @@ void Collector::collect_lights() {
     }
     f.has_environment = !is_black(effects_.environment);
     // Light sampling starts from where light is scattered.
-    if (!f.has_scattering && !f.has_surfaces) f.lights = 0;
+    if (!f.has_scattering && !(f.surface_queues & ~(1u << QUEUE_INTERFACE))) f.lights = 0;
     effects_.samples_lights = f.lights != 0;
     add("environment", f.has_environment, environment_by);
     add("area lights", f.lights & LIGHTS_AREA, "AreaLightSource");
@@ -171,13 +201,16 @@ bool Collector::is_all_grey() const {
         grey = grey && is_grey(m.sigma_a) && is_grey(m.sigma_s) && is_grey(m.emission);
     grey = grey && !effects_.features.has_rgb_grids && !effects_.features.has_temperature;
     for (const Material& m : scene_.materials)
-        grey = grey && is_grey(m.reflectance);
+        grey = grey && is_grey(m.reflectance) && is_grey(m.eta) && is_grey(m.k);
     for (const AreaLight& a : scene_.area_lights)
         grey = grey && is_grey(a.radiance) && is_grey(a.power_radiance);
     for (const Light& light : scene_.lights) {
-        if (const auto* d = std::get_if<DistantLight>(&light.emitter)) grey = grey && is_grey(d->irradiance);
-        if (const auto* p = std::get_if<PointLight>(&light.emitter)) grey = grey && is_grey(p->intensity);
-        if (const auto* s = std::get_if<SpotLight>(&light.emitter)) grey = grey && is_grey(s->intensity);
+        if (const auto* d = std::get_if<DistantLight>(&light.emitter))
+            grey = grey && is_grey(d->irradiance);
+        if (const auto* p = std::get_if<PointLight>(&light.emitter))
+            grey = grey && is_grey(p->intensity);
+        if (const auto* s = std::get_if<SpotLight>(&light.emitter))
+            grey = grey && is_grey(s->intensity);
     }
     return grey;
 }
@@ -185,9 +218,15 @@ bool Collector::is_all_grey() const {
 void Collector::collect_camera() {
     shared::Features& f = effects_.features;
     switch (scene_.filter.kind) {
-    case PixelFilter::Kind::box: f.filter_kind = FILTER_BOX; break;
-    case PixelFilter::Kind::triangle: f.filter_kind = FILTER_TRIANGLE; break;
-    default: f.filter_kind = FILTER_TABLE; break;
+    case PixelFilter::Kind::box:
+        f.filter_kind = FILTER_BOX;
+        break;
+    case PixelFilter::Kind::triangle:
+        f.filter_kind = FILTER_TRIANGLE;
+        break;
+    default:
+        f.filter_kind = FILTER_TABLE;
+        break;
     }
     f.has_lens = scene_.camera.lens_radius > 0;
     f.has_clamp = scene_.film.max_component_value < std::numeric_limits<double>::infinity();
@@ -210,6 +249,26 @@ Effects Collector::collect() {
 
 } // namespace
 
-Effects compute_effects(const Scene& scene) { return Collector(scene).collect(); }
+std::uint32_t queue_of(const Material& material) {
+    const bool is_rough = material.alpha >= 1e-3;
+    switch (material.kind) {
+    case Material::Kind::interface:
+        return QUEUE_INTERFACE;
+    case Material::Kind::diffuse:
+        return QUEUE_SURFACE;
+    case Material::Kind::thin_dielectric:
+        return QUEUE_DIELECTRIC;
+    case Material::Kind::dielectric:
+        // The facets of a boundary that does not bend light do nothing.
+        return is_rough && material.eta != Rgb(1) ? QUEUE_ROUGH_DIELECTRIC : QUEUE_DIELECTRIC;
+    case Material::Kind::conductor:
+        return is_rough ? QUEUE_ROUGH_CONDUCTOR : QUEUE_CONDUCTOR;
+    }
+    return QUEUE_SURFACE;
+}
+
+Effects compute_effects(const Scene& scene) {
+    return Collector(scene).collect();
+}
 
 } // namespace tyndall

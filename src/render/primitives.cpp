@@ -10,10 +10,13 @@ using namespace shared;
 
 namespace {
 
+glm::dvec3 transform(const glm::dmat4& m, const glm::dvec3& p) {
+    return m * glm::dvec4(p, 1);
+}
 
-glm::dvec3 transform(const glm::dmat4& m, const glm::dvec3& p) { return m * glm::dvec4(p, 1); }
-
-bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+bool mirrors(const glm::dmat4& m) {
+    return glm::determinant(glm::dmat3(m)) < 0;
+}
 
 /// Appends the transformed vertex normals and returns where they are, or NONE.
 template<std::size_t N>
@@ -42,8 +45,8 @@ void append_triangles(const Shape& shape, const Mesh& mesh, const glm::dmat4& m,
         std::array<glm::vec3, 3> p;
         for (int i = 0; i < 3; ++i)
             p[i] = glm::vec3(transform(m, glm::dvec3(mesh.positions[t[i]])));
-        glm::dvec3 normal = glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]),
-                                       glm::dvec3(p[2]) - glm::dvec3(p[0]));
+        glm::dvec3 normal =
+            glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0]));
         const double twice_area = glm::length(normal);
         if (!(twice_area > 0)) continue;
         normal /= flip ? -twice_area : twice_area;
@@ -52,8 +55,8 @@ void append_triangles(const Shape& shape, const Mesh& mesh, const glm::dmat4& m,
             append_normals(mesh, t, normal_matrix, shape.reverse_orientation, mean, set);
         if (glm::dot(normal, mean) < 0) normal = -normal;
         const glm::vec3 rounded(normal);
-        const double offset = glm::dot(glm::dvec3(rounded), (glm::dvec3(p[0]) + glm::dvec3(p[1]) +
-                                                             glm::dvec3(p[2])) / 3.0);
+        const double offset = glm::dot(
+            glm::dvec3(rounded), (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2])) / 3.0);
         set.primitives.push_back({.a = p[0],
                                   .kind_and_shape = KIND_TRIANGLE << KIND_SHIFT | shape_index,
                                   .b = p[1],
@@ -63,13 +66,15 @@ void append_triangles(const Shape& shape, const Mesh& mesh, const glm::dmat4& m,
                                   .normal = rounded,
                                   .offset = static_cast<float>(offset)});
         set.kinds |= PRIMITIVE_TRIANGLES;
-        set.bounds.push_back({glm::min(p[0], glm::min(p[1], p[2])), glm::max(p[0], glm::max(p[1], p[2]))});
+        set.bounds.push_back(
+            {glm::min(p[0], glm::min(p[1], p[2])), glm::max(p[0], glm::max(p[1], p[2]))});
         set.areas.push_back(shape.area_light >= 0 ? twice_area / 2 : 0);
         set.source_order.push_back(count++);
     }
 }
 
-/// Area of a bilinear patch by Gauss-Legendre quadrature (it only weighs lights and scales "power").
+/// Area of a bilinear patch by Gauss-Legendre quadrature (it only weighs lights and scales
+/// "power").
 double patch_area(const std::array<glm::dvec3, 4>& p) {
     constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187,
                                           0.66999052179242813, 0.93056815579702629};
@@ -97,8 +102,7 @@ void append_patches(const Shape& shape, const Mesh& mesh, const glm::dmat4& m,
         glm::dvec3 mean;
         const std::uint32_t normals =
             append_normals(mesh, q, normal_matrix, shape.reverse_orientation, mean, set);
-        const glm::dvec3 middle =
-            glm::cross(p[1] - p[0] + p[3] - p[2], p[2] - p[0] + p[3] - p[1]);
+        const glm::dvec3 middle = glm::cross(p[1] - p[0] + p[3] - p[2], p[2] - p[0] + p[3] - p[1]);
         const bool turned = (glm::dot(middle, mean) * (flip ? -1 : 1)) < 0;
         set.primitives.push_back({.a = glm::vec3(p[0]),
                                   .kind_and_shape = KIND_PATCH << KIND_SHIFT | shape_index,
@@ -145,9 +149,10 @@ double quadric_area(const glm::dmat4& m, const Shape& shape) {
     const auto* disk = std::get_if<Disk>(&shape.geometry);
     constexpr int steps = 64;
     const double z_extent = sphere ? sphere->z_max - sphere->z_min : 0;
-    const double area = sphere ? sphere->phi_max * sphere->radius * z_extent
-                               : 0.5 * disk->phi_max *
-                                     (disk->radius * disk->radius - disk->inner_radius * disk->inner_radius);
+    const double area =
+        sphere ? sphere->phi_max * sphere->radius * z_extent
+               : 0.5 * disk->phi_max *
+                     (disk->radius * disk->radius - disk->inner_radius * disk->inner_radius);
     const glm::dmat3 cofactor =
         glm::transpose(glm::inverse(linear)) * std::abs(glm::determinant(linear));
     if (disk) return area * glm::length(cofactor * glm::dvec3(0, 0, 1));
@@ -185,7 +190,8 @@ void append_quadric(const Shape& shape, const glm::dmat4& m, std::uint32_t shape
          .extra = static_cast<std::uint32_t>(set.quadrics.size()),
          .offset = flip ? -1.0f : 1.0f});
     set.kinds |= sphere ? PRIMITIVE_SPHERES : PRIMITIVE_DISKS;
-    const bool is_whole = sphere ? sphere->is_full() : disk->inner_radius == 0 && disk->phi_max >= 6.28318530;
+    const bool is_whole =
+        sphere ? sphere->is_full() : disk->inner_radius == 0 && disk->phi_max >= 6.28318530;
     if (!is_whole) set.kinds |= PRIMITIVE_CUTS;
     set.bounds.push_back(quadric_bounds(m, q.radius, q.z_min, q.z_max));
     set.areas.push_back(shape.area_light >= 0 ? quadric_area(m, shape) : 0);
@@ -193,7 +199,8 @@ void append_quadric(const Shape& shape, const glm::dmat4& m, std::uint32_t shape
     set.quadrics.push_back(q);
 }
 
-void append_box(const AxisBox& box, std::uint32_t shape_index, PrimitiveSet& set, std::uint64_t& count) {
+void append_box(const AxisBox& box, std::uint32_t shape_index, PrimitiveSet& set,
+                std::uint64_t& count) {
     const glm::vec3 lower(box.lower), upper(box.upper);
     set.primitives.push_back({.a = lower,
                               .kind_and_shape = KIND_BOX << KIND_SHIFT | shape_index,
@@ -216,7 +223,8 @@ AffineRecord make_affine(const glm::dmat4& m) {
     return {row(0), row(1), row(2)};
 }
 
-std::optional<AxisBox> find_plain_box(const Shape& shape, const Mesh& mesh, const glm::dmat4& transform) {
+std::optional<AxisBox> find_plain_box(const Shape& shape, const Mesh& mesh,
+                                      const glm::dmat4& transform) {
     if (shape.area_light >= 0) return std::nullopt;
     return find_box(shape, mesh, transform);
 }

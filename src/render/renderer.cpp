@@ -57,8 +57,8 @@ struct Renderer::Flight {
 Renderer::Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning)
     : context_(&context), effects_(compute_effects(scene)),
       tables_(timed(build_seconds_, [&] { return make_scene_tables(scene, effects_); })),
-      wavefront_(timed(compile_seconds_,
-                       [&] { return Wavefront(context, tables_, effects_, tuning); })) {
+      wavefront_(
+          timed(compile_seconds_, [&] { return Wavefront(context, tables_, effects_, tuning); })) {
     tables_.texels = {}; // on the device now
 }
 
@@ -166,7 +166,8 @@ void Renderer::each_film_pixel(const std::function<void(std::size_t, const glm::
 std::vector<glm::dvec4> Renderer::read_sums() {
     std::vector<glm::dvec4> sums(tables_.push.pixel_count);
     each_film_pixel([&](std::size_t pixel, const glm::vec4* film) {
-        sums[pixel] = glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
+        sums[pixel] =
+            glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
     });
     return sums;
 }
@@ -176,14 +177,16 @@ Image Renderer::read_film() {
     Image image(width, static_cast<int>(tables_.push.pixel_count) / width,
                 {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
     each_film_pixel([&](std::size_t pixel, const glm::vec4* film) {
-        const glm::dvec4 sum = glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
+        const glm::dvec4 sum =
+            glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
         if (sum.w == 0) return;
         const double batches = folded_batches_ - batch_of(first_sample_);
         const double divisor = batches > 1 ? (batches - 1) * samples() : 0;
         for (int c = 0; c < 3; ++c) {
             image.pixels[pixel * 6 + c] = static_cast<float>(sum[c] / sum.w);
             if (divisor > 0)
-                image.pixels[pixel * 6 + 3 + c] = static_cast<float>(film[shared::FILM_RESIDUAL][c] / divisor);
+                image.pixels[pixel * 6 + 3 + c] =
+                    static_cast<float>(film[shared::FILM_RESIDUAL][c] / divisor);
         }
     });
     return image;

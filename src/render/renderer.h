@@ -21,7 +21,8 @@ struct Progress {
 using KeepGoing = std::function<bool(const Progress&)>;
 
 using HealthCounts = std::array<std::uint64_t, shared::HEALTH_COUNT>;
-constexpr std::array<const char*, shared::HEALTH_COUNT> kHealthNames{"nonfinite", "negative", "majorant_exceeded"};
+constexpr std::array<const char*, shared::HEALTH_COUNT> kHealthNames{"nonfinite", "negative",
+                                                                     "majorant_exceeded"};
 
 /// What a stage took so far.
 struct StageTime {
@@ -34,14 +35,15 @@ class Renderer {
   public:
     Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning = {});
 
-    /// Renders samples first_sample <= s < end_sample of every pixel, into an empty film. Returns how many
-    /// samples the film has in the end: fewer than asked for if told to stop, and then whole batches.
+    /// Renders samples first_sample <= s < end_sample of every pixel, into an empty film. Returns
+    /// how many samples the film has in the end: fewer than asked for if told to stop, and then
+    /// whole batches.
     /// @throws Error if the device fails.
     std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
                          const KeepGoing& keep_going = {});
 
-    /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G variance.B; the
-    /// variance is that of the mean, 0 while there are fewer than two batches.
+    /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G
+    /// variance.B; the variance is that of the mean, 0 while there are fewer than two batches.
     Image read_film();
     /// Per pixel: sum of filter weight * radiance (xyz) and of filter weights (w).
     std::vector<glm::dvec4> read_sums();
@@ -79,7 +81,7 @@ class Renderer {
     HealthCounts health_{};
     HealthCounts health_before_{}; ///< Of earlier epochs.
     std::vector<StageTime> stage_times_;
-    std::uint32_t rounds_ = 1;     ///< Per submission, so that one takes about kSubmitSeconds.
+    std::uint32_t rounds_ = 1; ///< Per submission, so that one takes about kSubmitSeconds.
 };
 
 } // namespace tyndall

@@ -33,7 +33,9 @@ static_assert(sizeof(NodeRecord) == NODE_TEXELS * 16);
 static_assert(sizeof(LightRecord) == LIGHT_TEXELS * 16);
 static_assert(sizeof(RegionRecord) == REGION_TEXELS * 16);
 
-double mean(const Rgb& c) { return (c.r + c.g + c.b) / 3; }
+double mean(const Rgb& c) {
+    return (c.r + c.g + c.b) / 3;
+}
 
 std::uint32_t medium_word(int medium) {
     return medium < 0 ? VACUUM : static_cast<std::uint32_t>(medium);
@@ -85,7 +87,8 @@ class Packer {
     std::vector<const Shape*> shape_list_; ///< By shape record.
     std::vector<PrimitiveRecord> primitives_;
     std::vector<double> areas_;
-    std::vector<std::uint64_t> source_order_; ///< Of each primitive, in the order of the scene's shapes.
+    std::vector<std::uint64_t>
+        source_order_; ///< Of each primitive, in the order of the scene's shapes.
     std::vector<NodeRecord> nodes_;
     std::vector<glm::vec4> vertex_normals_;
     std::vector<QuadricRecord> quadrics_;
@@ -166,14 +169,20 @@ std::vector<ShapeRecord> Packer::shapes() {
         const Material& material = scene_.materials[shape->material];
         ShapeRecord record{};
         if (material.kind == Material::Kind::interface) record.flags |= SHAPE_INTERFACE;
-        if (shape->media.is_transition() && effects_.features.has_media) record.flags |= SHAPE_TRANSITION;
+        if (material.kind == Material::Kind::thin_dielectric) record.flags |= SHAPE_THIN;
+        if (shape->media.is_transition() && effects_.features.has_media)
+            record.flags |= SHAPE_TRANSITION;
         if (shape->area_light >= 0) {
             record.flags |= SHAPE_EMITS;
             if (scene_.area_lights[shape->area_light].two_sided) record.flags |= SHAPE_TWO_SIDED;
         }
         record.medium_inside = medium_word(shape->media.inside);
         record.medium_outside = medium_word(shape->media.outside);
+        record.queue = queue_of(material);
         record.reflectance = material.reflectance;
+        record.alpha = static_cast<float>(material.alpha);
+        record.eta = material.eta;
+        record.k = material.k;
         records.push_back(record);
     }
     return records;
@@ -181,7 +190,7 @@ std::vector<ShapeRecord> Packer::shapes() {
 
 /// Appends primitives in leaf order with their nodes; returns the root's child word.
 std::uint32_t Packer::build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size,
-                                  std::uint32_t one_leaf_size, Bounds& bounds) {
+                                      std::uint32_t one_leaf_size, Bounds& bounds) {
     tables_.primitives |= set.kinds;
     const Bvh bvh = build_bvh(set.bounds, leaf_size, one_leaf_size);
     bounds = bvh.bounds;
@@ -211,7 +220,8 @@ std::uint32_t Packer::build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size
         areas_.push_back(set.areas[index]);
         source_order_.push_back(set.source_order[index]);
     }
-    vertex_normals_.insert(vertex_normals_.end(), set.vertex_normals.begin(), set.vertex_normals.end());
+    vertex_normals_.insert(vertex_normals_.end(), set.vertex_normals.begin(),
+                           set.vertex_normals.end());
     quadrics_.insert(quadrics_.end(), set.quadrics.begin(), set.quadrics.end());
     return rebase(bvh.root);
 }
@@ -224,9 +234,9 @@ Bounds unite(const Bounds& a, const Bounds& b) {
 Bounds transform_bounds(const glm::dmat4& m, const Bounds& b) {
     glm::dvec3 lower(INFINITY), upper(-INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p = m * glm::dvec4(corner & 1 ? b.upper.x : b.lower.x,
-                                            corner & 2 ? b.upper.y : b.lower.y,
-                                            corner & 4 ? b.upper.z : b.lower.z, 1);
+        const glm::dvec3 p =
+            m * glm::dvec4(corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y,
+                           corner & 4 ? b.upper.z : b.lower.z, 1);
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
     }
@@ -240,7 +250,8 @@ Packer::Roots Packer::build_hierarchies(ShapeSet& set, Bounds& bounds) {
     Bounds triangle_bounds, other_bounds;
     if (!set.triangles.primitives.empty())
         roots.triangles = build_hierarchy(set.triangles, kLeafSize, kOneLeafSize, triangle_bounds);
-    if (!set.others.primitives.empty()) roots.others = build_hierarchy(set.others, 1, 4, other_bounds);
+    if (!set.others.primitives.empty())
+        roots.others = build_hierarchy(set.others, 1, 4, other_bounds);
     bounds = roots.triangles == NONE ? other_bounds
              : roots.others == NONE  ? triangle_bounds
                                      : unite(triangle_bounds, other_bounds);
@@ -279,11 +290,12 @@ void Packer::build_geometry() {
         instances.bounds.push_back(transform_bounds(m, object_bounds[instance.object]));
         instances.areas.push_back(0);
         instances.source_order.push_back(0);
-        instances_.push_back({.object_from_world = make_affine(glm::inverse(m)),
-                              .world_from_object = make_affine(m),
-                              .triangle_root = object.triangles,
-                              .other_root = object.others,
-                              .medium_shift = volumes_->medium_shift(instance.world_from_definition)});
+        instances_.push_back(
+            {.object_from_world = make_affine(glm::inverse(m)),
+             .world_from_object = make_affine(m),
+             .triangle_root = object.triangles,
+             .other_root = object.others,
+             .medium_shift = volumes_->medium_shift(instance.world_from_definition)});
     }
     if (instances.primitives.empty()) return;
     instances.kinds = PRIMITIVE_INSTANCES;
@@ -291,7 +303,8 @@ void Packer::build_geometry() {
     bounds_ = roots.is_empty() ? bounds : unite(bounds_, bounds);
 }
 
-/// Every primitive that emits is a light of its own, in the order of the scene (not of the hierarchy).
+/// Every primitive that emits is a light of its own, in the order of the scene (not of the
+/// hierarchy).
 void Packer::collect_emitters() {
     for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
         if (primitives_[i].kind_and_shape >> KIND_SHIFT == KIND_INSTANCE) continue;
@@ -303,7 +316,8 @@ void Packer::collect_emitters() {
         const AreaLight& light = scene_.area_lights[shape.area_light];
         const Rgb radiance = light.radiance + light.power_radiance / areas_[i];
         const double sides = light.two_sided ? 2 : 1;
-        emitters_.push_back({i, radiance, sides * 3.14159265358979323846 * areas_[i] * mean(radiance)});
+        emitters_.push_back(
+            {i, radiance, sides * 3.14159265358979323846 * areas_[i] * mean(radiance)});
     }
     std::sort(emitters_.begin(), emitters_.end(), [&](const Emitter& a, const Emitter& b) {
         return source_order_[a.primitive] < source_order_[b.primitive];
@@ -320,10 +334,12 @@ std::vector<LightRecord> Packer::lights() {
     const double disk = diameter > 0 ? pi * diameter * diameter / 4 : pi;
     for (const Light& light : scene_.lights) {
         if (const auto* d = std::get_if<DistantLight>(&light.emitter)) {
-            records.push_back({.position = d->direction, .kind = LIGHT_DISTANT, .radiance = d->irradiance});
+            records.push_back(
+                {.position = d->direction, .kind = LIGHT_DISTANT, .radiance = d->irradiance});
             powers.push_back(mean(d->irradiance) * disk);
         } else if (const auto* p = std::get_if<PointLight>(&light.emitter)) {
-            records.push_back({.position = p->position - origin_, .kind = LIGHT_POINT, .radiance = p->intensity});
+            records.push_back(
+                {.position = p->position - origin_, .kind = LIGHT_POINT, .radiance = p->intensity});
             powers.push_back(mean(p->intensity) * 4 * pi);
         } else if (const auto* s = std::get_if<SpotLight>(&light.emitter)) {
             records.push_back({.position = s->position - origin_,
@@ -339,14 +355,17 @@ std::vector<LightRecord> Packer::lights() {
     for (const Emitter& e : emitters_) {
         const Shape& shape = *shape_list_[primitives_[e.primitive].kind_and_shape & SHAPE_MASK];
         const bool two_sided = scene_.area_lights[shape.area_light].two_sided;
-        records.push_back({.kind = two_sided ? LIGHT_AREA_TWO_SIDED : LIGHT_AREA, .radiance = e.radiance, .primitive = e.primitive});
+        records.push_back({.kind = two_sided ? LIGHT_AREA_TWO_SIDED : LIGHT_AREA,
+                           .radiance = e.radiance,
+                           .primitive = e.primitive});
         powers.push_back(e.power);
     }
     const std::vector<AliasCell> cells = make_alias_table(powers);
     std::vector<AliasRecord> table;
     for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].probability = static_cast<float>(cells[i].probability);
-        table.push_back({.threshold = static_cast<float>(cells[i].threshold), .alias = cells[i].alias});
+        table.push_back(
+            {.threshold = static_cast<float>(cells[i].threshold), .alias = cells[i].alias});
     }
     tables_.push.alias_table = append(table, "light choice");
     return records;
@@ -355,7 +374,8 @@ std::vector<LightRecord> Packer::lights() {
 void Packer::pack_geometry() {
     collect_emitters();
     const std::vector<LightRecord> light_records = lights();
-    const auto first_area_light = static_cast<std::uint32_t>(light_records.size() - std::min(light_records.size(), emitters_.size()));
+    const auto first_area_light = static_cast<std::uint32_t>(
+        light_records.size() - std::min(light_records.size(), emitters_.size()));
     for (std::uint32_t i = 0; i < emitters_.size() && !light_records.empty(); ++i)
         primitives_[emitters_[i].primitive].light = first_area_light + i;
     tables_.primitive_count = primitives_.size();
@@ -371,9 +391,10 @@ void Packer::pack_geometry() {
 SceneTables Packer::pack() {
     append(std::vector{camera()}, "camera");
     tables_.push.filter_table = append(filter_table(), "pixel filter");
-    volumes_.emplace(scene_, render_from_world_, [this](const std::vector<glm::uvec4>& table, const char* name) {
-        return append(table, name);
-    });
+    volumes_.emplace(scene_, render_from_world_,
+                     [this](const std::vector<glm::uvec4>& table, const char* name) {
+                         return append(table, name);
+                     });
     tables_.push.blackbody =
         effects_.features.has_temperature ? append(make_blackbody_table(), "black body") : NONE;
     if (effects_.region) {
@@ -395,9 +416,11 @@ SceneTables Packer::pack() {
     tables_.push.media = append(volumes_->take_records(), "media");
     tables_.voxels = volumes_->take_voxels();
     const Film& film = scene_.film;
-    tables_.push.seed = {static_cast<std::uint32_t>(scene_.seed), static_cast<std::uint32_t>(scene_.seed >> 32)};
+    tables_.push.seed = {static_cast<std::uint32_t>(scene_.seed),
+                         static_cast<std::uint32_t>(scene_.seed >> 32)};
     tables_.push.width = static_cast<std::uint32_t>(film.bounds.width());
-    tables_.push.pixel_count = tables_.push.width * static_cast<std::uint32_t>(film.bounds.height());
+    tables_.push.pixel_count =
+        tables_.push.width * static_cast<std::uint32_t>(film.bounds.height());
     tables_.push.x0 = static_cast<std::uint32_t>(film.bounds.x0);
     tables_.push.y0 = static_cast<std::uint32_t>(film.bounds.y0);
     tables_.push.full_width = static_cast<std::uint32_t>(film.width);

@@ -13,8 +13,8 @@ namespace tyndall {
 struct SceneTables {
     std::vector<glm::uvec4> texels;
     VoxelData voxels;
-    /// The members that say where tables start are set, and width, height, seed, ... of the film; the rest
-    /// is the renderer's.
+    /// The members that say where tables start are set, and width, height, seed, ... of the film;
+    /// the rest is the renderer's.
     shared::PushConstants push{};
     /// Bytes by table, for --stats.
     std::vector<std::pair<std::string, std::uint64_t>> bytes;

@@ -65,10 +65,12 @@ void VolumePacker::append_media(const glm::dmat4& world_from_definition) {
     for (const Medium& medium : scene_.media)
         records_.push_back(make_record(medium, world_from_definition));
     if (records_.size() >= VACUUM)
-        throw Error(ExitStatus::failed, fmt::format("more than {} media, copies for instances included", VACUUM - 1));
+        throw Error(ExitStatus::failed,
+                    fmt::format("more than {} media, copies for instances included", VACUUM - 1));
 }
 
-MediumRecord VolumePacker::make_record(const Medium& medium, const glm::dmat4& world_from_definition) {
+MediumRecord VolumePacker::make_record(const Medium& medium,
+                                       const glm::dmat4& world_from_definition) {
     MediumRecord record{.sigma_a = medium.sigma_a,
                         .g = static_cast<float>(medium.phases.front().g),
                         .sigma_s = medium.sigma_s,
@@ -91,7 +93,8 @@ std::uint32_t VolumePacker::pack_grid_density(const GridDensity& density,
         return glm::uvec3(pack_grid(grids[0]), pack_grid(grids[1]), pack_grid(grids[2]));
     };
     const MajorantGrid& m = density.majorants;
-    const GridRecord record{.index_from_render = make_affine(density.index_from_medium * medium_from_render),
+    const GridRecord record{.index_from_render =
+                                make_affine(density.index_from_medium * medium_from_render),
                             .lower = density.lower,
                             .density = pack_grid(density.density),
                             .upper = density.upper,
@@ -119,7 +122,8 @@ std::uint32_t VolumePacker::pack_exponential(const ExponentialDensity& density,
     return append_(texels_of(record), "atmospheres");
 }
 
-std::uint32_t VolumePacker::append_words(const std::vector<std::uint32_t>& words, const char* name) {
+std::uint32_t VolumePacker::append_words(const std::vector<std::uint32_t>& words,
+                                         const char* name) {
     std::vector<glm::uvec4> texels((words.size() + 3) / 4);
     std::memcpy(texels.data(), words.data(), words.size() * sizeof(words[0]));
     return append_(texels, name);
@@ -169,7 +173,8 @@ std::uint32_t VolumePacker::pack_grid(const std::shared_ptr<const Grid>& grid) {
 }
 
 std::uint32_t VolumePacker::pack_majorants(const MajorantGrid& majorants) {
-    if (const auto known = majorants_.find(&majorants); known != majorants_.end()) return known->second;
+    if (const auto known = majorants_.find(&majorants); known != majorants_.end())
+        return known->second;
     std::vector<std::uint32_t> words(majorants.bounds.size());
     std::memcpy(words.data(), majorants.bounds.data(), words.size() * sizeof(words[0]));
     const std::uint32_t texel = append_words(words, "majorants");
@@ -181,7 +186,8 @@ std::vector<glm::vec4> make_blackbody_table() {
     std::vector<glm::vec4> table;
     for (std::uint32_t i = 0; i < BLACKBODY_ENTRIES; ++i) {
         const double share = double(i) / (BLACKBODY_ENTRIES - 1);
-        const double kelvin = BLACKBODY_MIN * std::pow(double(BLACKBODY_MAX) / BLACKBODY_MIN, share);
+        const double kelvin =
+            BLACKBODY_MIN * std::pow(double(BLACKBODY_MAX) / BLACKBODY_MIN, share);
         table.emplace_back(glm::vec3(blackbody_emission(kelvin)), 0.0f);
     }
     return table;

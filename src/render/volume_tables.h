@@ -24,16 +24,18 @@ class VolumePacker {
 
     /// Records of all media, followed by copies for instances: see medium_shift.
     std::vector<shared::MediumRecord> take_records() { return std::move(records_); }
-    /// What an instance with this transform adds to media indices, so that media that vary in space move with
-    /// it: 0 if there are none.
+    /// What an instance with this transform adds to media indices, so that media that vary in space
+    /// move with it: 0 if there are none.
     std::uint32_t medium_shift(const glm::dmat4& world_from_definition);
     VoxelData take_voxels() { return std::move(voxels_); }
 
   private:
     void append_media(const glm::dmat4& world_from_definition);
     shared::MediumRecord make_record(const Medium& medium, const glm::dmat4& world_from_definition);
-    std::uint32_t pack_grid_density(const GridDensity& density, const glm::dmat4& render_from_medium);
-    std::uint32_t pack_exponential(const ExponentialDensity& density, const glm::dmat4& medium_from_render);
+    std::uint32_t pack_grid_density(const GridDensity& density,
+                                    const glm::dmat4& render_from_medium);
+    std::uint32_t pack_exponential(const ExponentialDensity& density,
+                                   const glm::dmat4& medium_from_render);
     std::uint32_t pack_grid(const std::shared_ptr<const Grid>& grid);
     std::uint32_t pack_majorants(const MajorantGrid& majorants);
     std::uint32_t add_brick(const float* voxels);
@@ -45,7 +47,7 @@ class VolumePacker {
     bool is_uniform_ = true; ///< No medium varies in space.
     VoxelData voxels_;
     std::uint32_t brick_count_ = 0;
-    std::map<const Grid*, std::uint32_t> grids_;          ///< Packed already: texel of the BrickTableRecord.
+    std::map<const Grid*, std::uint32_t> grids_; ///< Packed already: texel of the BrickTableRecord.
     std::map<const MajorantGrid*, std::uint32_t> majorants_;
     std::vector<shared::MediumRecord> records_;
 };

@@ -4,6 +4,8 @@
 #include "spirv/cross_interface.h"
 #include "spirv/next_sample.h"
 #include "spirv/schedule.h"
+#include "spirv/shade_conductor.h"
+#include "spirv/shade_dielectric.h"
 #include "spirv/shade_surface.h"
 #include "spirv/shade_volume.h"
 #include "spirv/trace_segment.h"
@@ -35,8 +37,8 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     if (tuning.run_length == 0) tuning.run_length = has_hierarchy ? 64 : 256;
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
-    const std::uint64_t most = std::uint64_t{context.limits().maxComputeWorkGroupCount[0]} *
-                               tuning.workgroup_size;
+    const std::uint64_t most =
+        std::uint64_t{context.limits().maxComputeWorkGroupCount[0]} * tuning.workgroup_size;
     tuning.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(tuning.slots, most));
     return tuning;
 }
@@ -59,16 +61,21 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     batches_ = {context, "batches", pixels * push_.window * 16, texels};
     film_ = {context, "film", pixels * FILM_TEXELS * 16, texels};
     control_ = {context, "control", sizeof(Control), {.indirect = true}};
-    queues_ = {context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
+    queues_ = {
+        context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
     const VkFormat voxel_format =
         tables.voxels.is_half ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
-    voxels_ = {context, "voxels", tables.voxels.bytes.size(), {.texels = true, .texel_format = voxel_format}};
+    voxels_ = {context,
+               "voxels",
+               tables.voxels.bytes.size(),
+               {.texels = true, .texel_format = voxel_format}};
     gpu::upload(context, scene_, std::as_bytes(std::span(tables.texels)));
     gpu::upload(context, voxels_, tables.voxels.bytes);
 
-    descriptors_.emplace(context,
-                         gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_},
-                         static_cast<std::uint32_t>(sizeof(push_)));
+    descriptors_.emplace(
+        context,
+        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_},
+        static_cast<std::uint32_t>(sizeof(push_)));
     features_.workgroup_size = tuning_.workgroup_size;
     features_.storage_fallback = descriptors_->storage_fallback();
     features_.primitives = tables.primitives;
@@ -83,6 +90,9 @@ void Wavefront::build_stages(const Effects& effects) {
         return std::optional<gpu::Stage>(std::in_place, *context_, *descriptors_, name, spirv,
                                          features_);
     };
+    const auto has_queue = [&](std::uint32_t queue) {
+        return features_.surface_queues >> queue & 1u;
+    };
     schedule_ = make("schedule", schedule_spirv);
     update_film_ = make("update_film", update_film_spirv);
     if (features_.geometry != GEOMETRY_BVH) {
@@ -91,9 +101,20 @@ void Wavefront::build_stages(const Effects& effects) {
     }
     trace_segment_ = make("trace_segment", trace_segment_spirv);
     next_sample_ = make("next_sample", next_sample_spirv);
-    if (features_.densities & DENSITY_BITS_TRACKED) track_medium_ = make("track_medium", track_medium_spirv);
+    if (features_.densities & DENSITY_BITS_TRACKED)
+        track_medium_ = make("track_medium", track_medium_spirv);
     if (features_.has_scattering) shade_volume_ = make("shade_volume", shade_volume_spirv);
-    if (features_.has_surfaces) shade_surface_ = make("shade_surface", shade_surface_spirv);
+    if (has_queue(QUEUE_SURFACE)) shade_surface_ = make("shade_surface", shade_surface_spirv);
+    features_.is_rough = 0;
+    if (has_queue(QUEUE_DIELECTRIC))
+        shade_dielectric_ = make("shade_dielectric", shade_dielectric_spirv);
+    if (has_queue(QUEUE_CONDUCTOR))
+        shade_conductor_ = make("shade_conductor", shade_conductor_spirv);
+    features_.is_rough = 1;
+    if (has_queue(QUEUE_ROUGH_DIELECTRIC))
+        shade_rough_dielectric_ = make("shade_rough_dielectric", shade_dielectric_spirv);
+    if (has_queue(QUEUE_ROUGH_CONDUCTOR))
+        shade_rough_conductor_ = make("shade_rough_conductor", shade_conductor_spirv);
     if (features_.has_interfaces) cross_interface_ = make("cross_interface", cross_interface_spirv);
     if (effects.samples_lights) trace_shadow_ = make("trace_shadow", trace_shadow_spirv);
 }
@@ -133,7 +154,8 @@ void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
             commands.dispatch(*stage, invocations);
             end_stage();
         };
-        const auto run_indirect = [&](const std::optional<gpu::Stage>& stage, std::uint64_t arguments) {
+        const auto run_indirect = [&](const std::optional<gpu::Stage>& stage,
+                                      std::uint64_t arguments) {
             if (!stage) return;
             commands.dispatch_indirect(*stage, control_, arguments);
             end_stage();
@@ -149,6 +171,10 @@ void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
         drain(QUEUE_TRACK, track_medium_);
         drain(QUEUE_VOLUME, shade_volume_);
         drain(QUEUE_SURFACE, shade_surface_);
+        drain(QUEUE_DIELECTRIC, shade_dielectric_);
+        drain(QUEUE_ROUGH_DIELECTRIC, shade_rough_dielectric_);
+        drain(QUEUE_CONDUCTOR, shade_conductor_);
+        drain(QUEUE_ROUGH_CONDUCTOR, shade_rough_conductor_);
         drain(QUEUE_INTERFACE, cross_interface_);
         drain(QUEUE_SHADOW, trace_shadow_);
         drain(QUEUE_ENDED, next_sample_);
@@ -189,8 +215,9 @@ std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {
 std::vector<std::string> Wavefront::stage_names() const {
     std::vector<std::string> names;
     for (const auto* stage :
-         {&walk_region_, &trace_segment_, &track_medium_, &shade_volume_, &shade_surface_, &cross_interface_,
-          &trace_shadow_, &next_sample_, &schedule_, &update_film_})
+         {&walk_region_, &trace_segment_, &track_medium_, &shade_volume_, &shade_surface_,
+          &shade_dielectric_, &shade_rough_dielectric_, &shade_conductor_, &shade_rough_conductor_,
+          &cross_interface_, &trace_shadow_, &next_sample_, &schedule_, &update_film_})
         if (*stage) names.push_back((*stage)->name());
     return names;
 }

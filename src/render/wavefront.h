@@ -23,14 +23,16 @@ class Wavefront {
     Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
               const Tuning& tuning);
 
-    /// Forgets paths in flight, so that batches first_batch ... first_batch + batch_count - 1 can be rendered,
-    /// of which samples first_sample <= s < end_sample. The film is kept, or zeroed with `clear_film`.
+    /// Forgets paths in flight, so that batches first_batch ... first_batch + batch_count - 1 can
+    /// be rendered, of which samples first_sample <= s < end_sample. The film is kept, or zeroed
+    /// with `clear_film`.
     void begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
                      std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film);
 
-    /// Records `rounds` rounds; each advances every path by at least one event. The first round is timed:
-    /// `clock` has one mark more than there are stages.
-    void record_rounds(gpu::Commands& commands, std::uint32_t rounds, const gpu::Timestamps& clock) const;
+    /// Records `rounds` rounds; each advances every path by at least one event. The first round is
+    /// timed: `clock` has one mark more than there are stages.
+    void record_rounds(gpu::Commands& commands, std::uint32_t rounds,
+                       const gpu::Timestamps& clock) const;
     /// Records the copy of the control block into `to` (host visible).
     void record_readback(gpu::Commands& commands, const gpu::Buffer& to) const;
 
@@ -62,6 +64,10 @@ class Wavefront {
     std::optional<gpu::Stage> track_medium_;
     std::optional<gpu::Stage> shade_volume_;
     std::optional<gpu::Stage> shade_surface_;
+    std::optional<gpu::Stage> shade_dielectric_;
+    std::optional<gpu::Stage> shade_rough_dielectric_;
+    std::optional<gpu::Stage> shade_conductor_;
+    std::optional<gpu::Stage> shade_rough_conductor_;
     std::optional<gpu::Stage> cross_interface_;
     std::optional<gpu::Stage> trace_shadow_;
     std::optional<gpu::Stage> next_sample_;

@@ -1,4 +1,5 @@
 // The directives after WorldBegin, and those that both blocks know.
+#include "scene/materials.h"
 #include "scene/media.h"
 #include "scene/scene_builder.h"
 #include "scene/shapes.h"
@@ -17,7 +18,9 @@ void SceneBuilder::make_named_medium(const std::string& name, const ParsedParame
         diagnostics_.error(where, fmt::format("medium {} is defined twice", in_quotes(name)));
         return;
     }
-    scene_.media.push_back(read_medium(name, p, files_));
+    if (state_.ctm[0] != state_.ctm[1])
+        diagnostics_.warning(where, "the medium stays where it is at the start of the shutter");
+    scene_.media.push_back(read_medium(name, p, state_.ctm[0], files_));
 }
 
 void SceneBuilder::material(const std::string& type, const ParsedParameters& parameters,

@@ -1,6 +1,7 @@
 #include "scene/media.h"
 
 #include "scene/colours.h"
+#include "scene/grid_media.h"
 #include "scene/type_names.h"
 
 namespace tyndall {
@@ -17,14 +18,15 @@ PhaseFunction read_phase_function(Parameters& parameters) {
 
 } // namespace
 
-Medium read_medium(const std::string& name, Parameters& parameters, InputFiles& files) {
-    static const TypeNames names{
-        "medium",
-        {"homogeneous"},
-        {"uniformgrid", "rgbgrid", "cloud", "nanovdb", "vdb", "exponential"}};
+Medium read_medium(const std::string& name, Parameters& parameters,
+                   const glm::dmat4& world_from_medium, InputFiles& files) {
+    static const TypeNames names{"medium",
+                                 {"homogeneous", "uniformgrid"},
+                                 {"rgbgrid", "cloud", "nanovdb", "vdb", "exponential"}};
     Medium medium;
     medium.name = name;
     medium.where = parameters.where();
+    medium.world_from_medium = world_from_medium;
     const Parameter* type = parameters.find_required("string", "type");
     const std::string type_name = parameters.get_string("type", "homogeneous");
     if (!type || !check_type(names, type_name, parameters.where(), parameters.diagnostics())) {
@@ -34,40 +36,16 @@ Medium read_medium(const std::string& name, Parameters& parameters, InputFiles& 
     const double scale = parameters.get_float("scale", 1, require::non_negative);
     medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
     medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
-    medium.emission = read_light_colour(parameters, "Le", files).value_or(Rgb(0)) *
-                      parameters.get_float("Lescale", 1, require::non_negative);
+    const std::optional<Rgb> emission = read_light_colour(parameters, "Le", files);
+    medium.emission = emission.value_or(Rgb(0));
     medium.phases.front() = read_phase_function(parameters);
+    if (type_name == "uniformgrid") {
+        read_uniform_grid(parameters, medium);
+    } else {
+        medium.emission *= parameters.get_float("Lescale", 1, require::non_negative);
+    }
     parameters.report_unused();
     return medium;
-}
-
-Material read_material(const std::string& type, Parameters& parameters, InputFiles& files) {
-    static const TypeNames names{"material",
-                                 {"diffuse", "interface"},
-                                 {"coateddiffuse", "coatedconductor", "conductor", "dielectric",
-                                  "diffusetransmission", "hair", "measured", "mix", "subsurface",
-                                  "thindielectric"}};
-    Material material;
-    material.where = parameters.where();
-    const bool is_deprecated = type.empty() || type == "none";
-    if (is_deprecated) {
-        parameters.diagnostics().warning(
-            parameters.where(), "material \"" + type + "\" is deprecated (use \"interface\")");
-    }
-    if (!is_deprecated && !check_type(names, type, parameters.where(), parameters.diagnostics())) {
-        return material;
-    }
-    parameters.reject_texture("displacement");
-    parameters.reject("string", "normalmap");
-    if (type == "diffuse") {
-        material.kind = Material::Kind::diffuse;
-        parameters.reject_texture("reflectance");
-        material.reflectance = read_reflectance(parameters, "reflectance", Rgb(0.5), files);
-    } else {
-        material.kind = Material::Kind::interface;
-    }
-    parameters.report_unused();
-    return material;
 }
 
 } // namespace tyndall

@@ -1,4 +1,4 @@
-/// Participating media and materials from their parameters.
+/// Participating media from their parameters.
 #pragma once
 
 #include "scene/input_files.h"
@@ -10,10 +10,7 @@
 namespace tyndall {
 
 /// MakeNamedMedium. After an error the medium has default values.
-Medium read_medium(const std::string& name, Parameters& parameters, InputFiles& files);
-
-/// Material or MakeNamedMaterial; "" and "none" are deprecated names of "interface". After an error
-/// the material has default values.
-Material read_material(const std::string& type, Parameters& parameters, InputFiles& files);
+Medium read_medium(const std::string& name, Parameters& parameters,
+                   const glm::dmat4& world_from_medium, InputFiles& files);
 
 } // namespace tyndall

@@ -42,29 +42,31 @@ struct PhaseFunction {
 
 /// Density that scales the coefficients of a medium, on voxels (uniformgrid, nanovdb, vdb, cloud).
 struct GridDensity {
-    glm::dmat4 index_from_medium{1}; ///< Of all grids here.
-    glm::dvec3 lower{0}, upper{1};   ///< Box in index space outside of which the medium is not.
+    glm::dmat4 index_from_medium{1};     ///< Of all grids here.
+    glm::dvec3 lower{0}, upper{1};       ///< Box in index space outside of which the medium is not.
     std::shared_ptr<const Grid> density; ///< Null: 1 everywhere in the box (rgbgrid).
     /// rgbgrid: coefficients by voxel and channel, in place of density * sigma; null otherwise.
     std::array<std::shared_ptr<const Grid>, 3> sigma_a, sigma_s, emission;
     std::shared_ptr<const Grid> emission_scale; ///< Lescale; null: 1.
-    /// Kelvin, offset and scale applied; where it is above 100 K the medium emits like a black body and
-    /// Medium::emission scales that (Lescale); null: none.
+    /// Kelvin, offset and scale applied; where it is above 100 K the medium emits like a black body
+    /// and Medium::emission scales that (Lescale); null: none.
     std::shared_ptr<const Grid> temperature;
-    MajorantGrid majorants; ///< Of density, or for rgbgrid of the largest sigma_a + sigma_s of a channel.
+    MajorantGrid
+        majorants; ///< Of density, or for rgbgrid of the largest sigma_a + sigma_s of a channel.
 };
 
-/// Density exp(-h / scale_height), h the height above a plane or a sphere (not below 0 for the sphere).
+/// Density exp(-h / scale_height), h the height above a plane or a sphere (not below 0 for the
+/// sphere).
 struct ExponentialDensity {
     bool is_spherical = false;
-    glm::dvec3 origin{0};  ///< Of medium space: a point of the plane, or the centre of the sphere.
+    glm::dvec3 origin{0};   ///< Of medium space: a point of the plane, or the centre of the sphere.
     glm::dvec3 up{0, 1, 0}; ///< Plane: unit normal in medium space.
     double radius = 0;      ///< Of the sphere.
     double scale_height = 1; ///< > 0
 };
 
-/// A participating medium: sigma_a and sigma_s times the density. Emits sigma_a * emission per unit length
-/// (radiance).
+/// A participating medium: sigma_a and sigma_s times the density. Emits sigma_a * emission per unit
+/// length (radiance).
 struct Medium {
     std::string name;
     SourceLocation where;
@@ -87,11 +89,13 @@ struct Material {
     };
     Kind kind = Kind::diffuse;
     Rgb reflectance{0.5}; ///< diffuse: albedo of each side, in [0, 1].
-    /// dielectrics: index of refraction, inside (against the normal) over outside; where the channels differ,
-    /// a path that is refracted goes on in its hero channel alone. conductor: of the metal.
+    /// dielectrics: index of refraction, inside (against the normal) over outside; where the
+    /// channels differ, a path that is refracted goes on in its hero channel alone. conductor: of
+    /// the metal.
     Rgb eta{1.5};
-    Rgb k{0};         ///< conductor: absorption index.
-    double alpha = 0; ///< dielectric, conductor: GGX roughness, pbrt's remapping applied; 0: smooth.
+    Rgb k{0}; ///< conductor: absorption index.
+    double alpha =
+        0; ///< dielectric, conductor: GGX roughness, pbrt's remapping applied; 0: smooth.
     SourceLocation where;
 };
 

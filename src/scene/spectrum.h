@@ -65,9 +65,9 @@ glm::dvec3 light_colour(const Spectrum& s);
 /// colours outside the gamut need.
 glm::dvec3 reflectance_colour(const Spectrum& s);
 
-/// Radiance of a black body, Planck's law scaled to a maximum of 1 over wavelengths (as pbrt emits from temperature
-/// grids): integrated per nm and not divided by anything, so near 100 where the maximum is visible. Clamped to 0
-/// where outside the gamut.
+/// Radiance of a black body, Planck's law scaled to a maximum of 1 over wavelengths (as pbrt emits
+/// from temperature grids): integrated per nm and not divided by anything, so near 100 where the
+/// maximum is visible. Clamped to 0 where outside the gamut.
 /// @param kelvin  > 0.
 glm::dvec3 blackbody_emission(double kelvin);
 

@@ -5,13 +5,15 @@
 #include "shared/bindings.h"
 #include "shared/random.h"
 
-// The bar for the wavefront: homogeneous-cube (scenes/homogeneous-cube.pbrt) in one kernel that knows
-// nothing else. One invocation renders all samples of one pixel, lanes refilled in place; scene and
-// camera are constants; no state leaves registers until the pixel is done. Estimator, random numbers and
-// functions are the wavefront's own.
+// The bar for the wavefront: homogeneous-cube (scenes/homogeneous-cube.pbrt) in one kernel that
+// knows nothing else. One invocation renders all samples of one pixel, lanes refilled in place;
+// scene and camera are constants; no state leaves registers until the pixel is done. Estimator,
+// random numbers and functions are the wavefront's own.
 
 layout(local_size_x_id = 0) in;
-layout(push_constant, std430) uniform Push { PushConstants push; };
+layout(push_constant, std430) uniform Push {
+    PushConstants push;
+};
 layout(binding = BINDING_FILM, rgba32ui) uniform uimageBuffer film_texels;
 
 const float SIGMA_A = 0.5, SIGMA_S = 2.0, G = 0.5;
@@ -31,7 +33,8 @@ void main() {
             if (path_sample == push.end_sample) break;
             const uvec4 words = random_block(push.seed, pixel, path_sample, 0u, BLOCK_PATH);
             const vec2 film = (xy + vec2(unit_float(words.x), unit_float(words.y))) * scale;
-            direction = normalize(vec3(TAN_HALF_FOV * (film.x - 1.0), TAN_HALF_FOV * (1.0 - film.y), 1.0));
+            direction =
+                normalize(vec3(TAN_HALF_FOV * (film.x - 1.0), TAN_HALF_FOV * (1.0 - film.y), 1.0));
             const vec3 inverse = 1.0 / direction;
             const vec3 a = (vec3(-1, -1, 5)) * inverse, b = vec3(1, 1, 7) * inverse;
             const vec3 entry = min(a, b), exit = max(a, b);
@@ -66,5 +69,6 @@ void main() {
             throughput *= 2.0;
         }
     }
-    imageStore(film_texels, int(pixel * FILM_TEXELS), floatBitsToUint(vec4(vec3(sum), push.end_sample - push.first_sample)));
+    imageStore(film_texels, int(pixel * FILM_TEXELS),
+               floatBitsToUint(vec4(vec3(sum), push.end_sample - push.first_sample)));
 }

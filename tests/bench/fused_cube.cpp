@@ -21,8 +21,10 @@ shared::Features features() {
 FusedCube::FusedCube(const gpu::Context& context, std::uint32_t size)
     : context_(context), unused_(context, "unused", 1024, kTexels),
       film_(context, "fused film", std::uint64_t{size} * size * shared::FILM_TEXELS * 16, kTexels),
-      descriptors_(context, {{&unused_, &unused_, &unused_, &film_, &unused_}, &unused_, &unused_}, sizeof(push_)),
-      stage_(context, descriptors_, "fused_cube", fused_cube_spirv, features()), commands_(context) {
+      descriptors_(context, {{&unused_, &unused_, &unused_, &film_, &unused_}, &unused_, &unused_},
+                   sizeof(push_)),
+      stage_(context, descriptors_, "fused_cube", fused_cube_spirv, features()),
+      commands_(context) {
     push_.width = push_.full_width = size;
     push_.pixel_count = size * size;
 }

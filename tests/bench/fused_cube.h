@@ -1,4 +1,5 @@
-/// The bar for the wavefront: homogeneous-cube in one kernel that knows nothing else (fused_cube.comp).
+/// The bar for the wavefront: homogeneous-cube in one kernel that knows nothing else
+/// (fused_cube.comp).
 #pragma once
 
 #include "gpu/commands.h"

@@ -12,9 +12,11 @@ namespace {
 constexpr float kSigmaT = 2.5f, kAlbedo = 0.8f, kG = 0.5f;
 constexpr std::uint32_t kSize = 256, kSamples = 64;
 
-struct Vec3 { float x, y, z; };
+struct Vec3 {
+    float x, y, z;
+};
 
-float uniform(std::uint32_t& state) {  // PCG-RXS-M-XS 32
+float uniform(std::uint32_t& state) { // PCG-RXS-M-XS 32
     const std::uint32_t s = state;
     state = state * 747796405u + 2891336453u;
     const std::uint32_t w = ((s >> ((s >> 28u) + 4u)) ^ s) * 277803737u;
@@ -23,21 +25,23 @@ float uniform(std::uint32_t& state) {  // PCG-RXS-M-XS 32
 
 bool intersect_cube(Vec3 o, Vec3 d, float& t_near, float& t_far) {
     const float ix = 1 / d.x, iy = 1 / d.y, iz = 1 / d.z;
-    const float ax = (-1 - o.x) * ix, bx = (1 - o.x) * ix, ay = (-1 - o.y) * iy, by = (1 - o.y) * iy,
-                az = (-1 - o.z) * iz, bz = (1 - o.z) * iz;
+    const float ax = (-1 - o.x) * ix, bx = (1 - o.x) * ix, ay = (-1 - o.y) * iy,
+                by = (1 - o.y) * iy, az = (-1 - o.z) * iz, bz = (1 - o.z) * iz;
     t_near = std::max({std::min(ax, bx), std::min(ay, by), std::min(az, bz)});
     t_far = std::min({std::max(ax, bx), std::max(ay, by), std::max(az, bz)});
     return t_far > std::max(t_near, 0.0f);
 }
 
-Vec3 scatter(Vec3 n, float u, float v) {  // Henyey-Greenstein about n
+Vec3 scatter(Vec3 n, float u, float v) { // Henyey-Greenstein about n
     const float q = (1 - kG * kG) / (1 - kG + 2 * kG * u);
     const float cos_theta = (1 + kG * kG - q * q) / (2 * kG);
-    const float sin_theta = std::sqrt(std::max(0.0f, 1 - cos_theta * cos_theta)), phi = 6.2831853f * v;
+    const float sin_theta = std::sqrt(std::max(0.0f, 1 - cos_theta * cos_theta)),
+                phi = 6.2831853f * v;
     const float sign = n.z >= 0 ? 1.0f : -1.0f, a = -1 / (sign + n.z), b = n.x * n.y * a;
     const float c = std::cos(phi) * sin_theta, s = std::sin(phi) * sin_theta;
     const Vec3 r{(1 + sign * n.x * n.x * a) * c + b * s + n.x * cos_theta,
-                 sign * b * c + (sign + n.y * n.y * a) * s + n.y * cos_theta, -sign * n.x * c - n.y * s + n.z * cos_theta};
+                 sign * b * c + (sign + n.y * n.y * a) * s + n.y * cos_theta,
+                 -sign * n.x * c - n.y * s + n.z * cos_theta};
     const float l = 1 / std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z);
     return {r.x * l, r.y * l, r.z * l};
 }

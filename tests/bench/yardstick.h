@@ -1,5 +1,5 @@
-/// Scalar C++ on homogeneous-cube: how fast this machine walks photons, so that figures of one day or
-/// machine can be compared with another's.
+/// Scalar C++ on homogeneous-cube: how fast this machine walks photons, so that figures of one day
+/// or machine can be compared with another's.
 #pragma once
 
 #include <cstdint>

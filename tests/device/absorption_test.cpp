@@ -13,7 +13,7 @@ namespace {
 using namespace support;
 
 constexpr int kPixels = 33;
-constexpr double kHalf = 2; ///< Of the window, in scene units.
+constexpr double kHalf = 2;         ///< Of the window, in scene units.
 constexpr double kTolerance = 1e-5; // asked for, in every pixel
 const Rgb kSigmaA(0.25, 0.5, 1);
 
@@ -39,7 +39,8 @@ Ray ray_of(const Scene& scene, int x, int y) {
 
 Ray in_object(const Ray& ray, const glm::dmat4& world_from_object) {
     const glm::dmat4 m = glm::inverse(world_from_object);
-    return {glm::dvec3(m * glm::dvec4(ray.origin, 1)), glm::dvec3(m * glm::dvec4(ray.direction, 0))};
+    return {glm::dvec3(m * glm::dvec4(ray.origin, 1)),
+            glm::dvec3(m * glm::dvec4(ray.direction, 0))};
 }
 
 /// Where a ray is in a medium.
@@ -81,13 +82,15 @@ Chord sphere_chord(const Ray& in_world, const glm::dmat4& world_from_object = gl
 
 using Depth = std::function<Chord(const Ray&)>;
 
-/// Where the ray that crosses a boundary begins anew, off it by the error of the hit point, its length changes
-/// by about that error over the cosine. Beside a hierarchy (where there is nothing to cross) it does not.
+/// Where the ray that crosses a boundary begins anew, off it by the error of the hit point, its
+/// length changes by about that error over the cosine. Beside a hierarchy (where there is nothing
+/// to cross) it does not.
 enum class Crossing { exact, rounded };
 
-/// The largest difference from exp(-sigma_a depth), over pixels and channels, in units of what is allowed.
-double worst_difference(const Scene& scene, const Image& film, const Depth& depth, Crossing crossing,
-                        const Rgb& sigma_a) {
+/// The largest difference from exp(-sigma_a depth), over pixels and channels, in units of what is
+/// allowed.
+double worst_difference(const Scene& scene, const Image& film, const Depth& depth,
+                        Crossing crossing, const Rgb& sigma_a) {
     double worst = 0;
     const std::vector<Rgb> colors = colors_of(film);
     for (int y = 0; y < kPixels; ++y) {
@@ -95,7 +98,8 @@ double worst_difference(const Scene& scene, const Image& film, const Depth& dept
             const Chord chord = depth(ray_of(scene, x, y));
             const auto pixel = static_cast<std::size_t>(y * kPixels + x);
             const Rgb off = glm::abs(colors[pixel] - glm::exp(-sigma_a * chord.length));
-            const double allowed = crossing == Crossing::exact ? kTolerance : kTolerance / chord.cosine;
+            const double allowed =
+                crossing == Crossing::exact ? kTolerance : kTolerance / chord.cosine;
             worst = std::max(worst, std::max({off.r, off.g, off.b}) / allowed);
         }
     }
@@ -116,7 +120,8 @@ class AbsorptionTest : public DeviceTest {
   protected:
     /// Turned, and of different size in each direction.
     const glm::dmat4 placed_ =
-        glm::rotate(translation({0.1, -0.2, 0.3}), 0.7, glm::dvec3(1, 2, 3)) * scaling({1, 0.7, 1.2});
+        glm::rotate(translation({0.1, -0.2, 0.3}), 0.7, glm::dvec3(1, 2, 3)) *
+        scaling({1, 0.7, 1.2});
     Scene scene_ = oblique_view({1, 2, -4});
     int dye_ = add_medium(scene_, kSigmaA, Rgb(0));
     /// Something to hit, far beside the picture, so that the scene needs a hierarchy.
@@ -131,33 +136,38 @@ class AbsorptionTest : public DeviceTest {
 TEST_F(AbsorptionTest, BoxAlone) {
     add_shape(scene_, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = dye_});
     expect_geometry(shared::GEOMETRY_BOX);
-    expect_beer(scene_, [](const Ray& ray) { return box_chord(ray); }, Crossing::exact);
+    expect_beer(
+        scene_, [](const Ray& ray) { return box_chord(ray); }, Crossing::exact);
 }
 
 TEST_F(AbsorptionTest, BoxInAHierarchy) {
     add_shape(scene_, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = dye_});
     force_hierarchy();
     expect_geometry(shared::GEOMETRY_BVH);
-    expect_beer(scene_, [](const Ray& ray) { return box_chord(ray); }, Crossing::exact);
+    expect_beer(
+        scene_, [](const Ray& ray) { return box_chord(ray); }, Crossing::exact);
 }
 
 TEST_F(AbsorptionTest, TurnedBox) {
     add_shape(scene_, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = dye_}, placed_);
     expect_geometry(shared::GEOMETRY_BVH);
-    expect_beer(scene_, [&](const Ray& ray) { return box_chord(ray, placed_); }, Crossing::rounded);
+    expect_beer(
+        scene_, [&](const Ray& ray) { return box_chord(ray, placed_); }, Crossing::rounded);
 }
 
 TEST_F(AbsorptionTest, EllipsoidAlone) {
     add_shape(scene_, full_sphere(1), {.inside = dye_}, placed_);
     expect_geometry(shared::GEOMETRY_ELLIPSOID);
-    expect_beer(scene_, [&](const Ray& ray) { return sphere_chord(ray, placed_); }, Crossing::exact);
+    expect_beer(
+        scene_, [&](const Ray& ray) { return sphere_chord(ray, placed_); }, Crossing::exact);
 }
 
 TEST_F(AbsorptionTest, EllipsoidInAHierarchy) {
     add_shape(scene_, full_sphere(1), {.inside = dye_}, placed_);
     force_hierarchy();
     expect_geometry(shared::GEOMETRY_BVH);
-    expect_beer(scene_, [&](const Ray& ray) { return sphere_chord(ray, placed_); }, Crossing::rounded);
+    expect_beer(
+        scene_, [&](const Ray& ray) { return sphere_chord(ray, placed_); }, Crossing::rounded);
 }
 
 TEST_F(AbsorptionTest, CameraInTheMedium) {
@@ -178,11 +188,13 @@ TEST_F(AbsorptionTest, NestedMedia) {
     const int core = add_medium(scene_, 2.0 * kSigmaA, Rgb(0));
     const glm::dmat4 inner = translation({0.3, 0.1, 0}) * scaling(glm::dvec3(0.4));
     add_shape(scene_, full_sphere(1), {.inside = dye_});
-    add_shape(scene_, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = core, .outside = dye_}, inner);
+    add_shape(scene_, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = core, .outside = dye_},
+              inner);
     const auto depth = [&](const Ray& ray) {
         const Chord outer = sphere_chord(ray), core_chord = box_chord(ray, inner);
         // The core is twice as dense: it counts twice. Four boundaries share the tolerance.
-        return Chord{outer.length + core_chord.length, std::min(outer.cosine, core_chord.cosine) / 2};
+        return Chord{outer.length + core_chord.length,
+                     std::min(outer.cosine, core_chord.cosine) / 2};
     };
     expect_beer(scene_, depth, Crossing::rounded);
 }

@@ -27,12 +27,15 @@ TEST_P(AgreementTest, DeviceEqualsReference) {
 
 std::string name_of(const testing::TestParamInfo<std::string>& info) {
     std::string name = info.param;
-    std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
     return name;
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, testing::ValuesIn(scene_names()), name_of);
 
-TEST(AgreementTestScenes, ThereAreSevenOrMore) { EXPECT_GE(scene_names().size(), 7u); }
+TEST(AgreementTestScenes, ThereAreSevenOrMore) {
+    EXPECT_GE(scene_names().size(), 7u);
+}
 
 } // namespace
 } // namespace tyndall::device_test

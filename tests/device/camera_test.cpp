@@ -90,13 +90,16 @@ TEST_F(CameraTest, EveryKindAgreesWithTheReference) {
     }
 }
 
-/// Where a small bright ball appears: pictures are not mirrored, and pixels are where they should be.
+/// Where a small bright ball appears: pictures are not mirrored, and pixels are where they should
+/// be.
 TEST_F(CameraTest, PixelsLookWhereTheyShould) {
     Scene scene = empty_scene(16, 8);
     scene.camera.world_from_camera = look_at({0, 0, -20}, {0, 0, 0}, {0, 1, 0});
-    // In camera space x goes right and y goes up: pixel column 12 is around x = 4.5, row 5 around y = 2.5.
-    add_shape(scene, full_sphere(0.3), {.material = black, .area_light = add_area_light(scene, Rgb(1))},
-              translation(glm::dvec3(scene.camera.world_from_camera * glm::dvec4(4.5, 2.5, 20, 1))));
+    // In camera space x goes right and y goes up: pixel column 12 is around x = 4.5, row 5 around y
+    // = 2.5.
+    add_shape(
+        scene, full_sphere(0.3), {.material = black, .area_light = add_area_light(scene, Rgb(1))},
+        translation(glm::dvec3(scene.camera.world_from_camera * glm::dvec4(4.5, 2.5, 20, 1))));
     const Image film = render(scene, 64);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x)

@@ -41,19 +41,20 @@ std::vector<glm::dvec4> render_sums(const Scene& scene, std::uint32_t first, std
 support::Estimate mean_of(const Image& film);
 support::Estimate mean_of(const Scene& scene, std::uint32_t samples);
 
-/// The project's one policy (support/estimates.h): the estimate is within 4.5 standard errors of the
-/// truth, and 6 or more from a wrong answer.
+/// The project's one policy (support/estimates.h): the estimate is within 4.5 standard errors of
+/// the truth, and 6 or more from a wrong answer.
 void expect_mean(const support::Estimate& estimate, double truth, double wrong, int channel = 1);
 
 /// Sums of equal batches of samples, as stats::test_agreement takes them.
 std::vector<stats::PixelSums> device_batches(const Scene& scene, std::uint32_t samples);
 std::vector<stats::PixelSums> reference_batches(const Scene& scene, std::uint32_t samples);
 
-/// Batches with the same random numbers agree; were the first 1 % brighter, they would not.
+/// Batches with the same random numbers agree; were the first brighter by `teeth`, they would not.
 void expect_agreement(const std::vector<stats::PixelSums>& batches,
-                      const std::vector<stats::PixelSums>& expected, int width);
+                      const std::vector<stats::PixelSums>& expected, int width,
+                      double teeth = 0.01);
 /// The device agrees with the reference.
-void expect_agreement(const Scene& scene, std::uint32_t samples);
+void expect_agreement(const Scene& scene, std::uint32_t samples, double teeth = 0.01);
 
 /// Pixels of a film as colours, row by row.
 std::vector<Rgb> colors_of(const Image& film);

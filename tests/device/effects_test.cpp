@@ -2,6 +2,7 @@
 #include "device/device_test.h"
 #include "device/test_scenes.h"
 #include "scene/reader.h"
+#include "support/materials.h"
 
 #include <algorithm>
 
@@ -69,7 +70,8 @@ TEST_F(EffectsTest, AUniformSkyNeedsNoShadowRays) {
 
 TEST_F(EffectsTest, AbsorptionAloneNeedsNoShadowRaysAndNoScattering) {
     Scene scene = empty_scene(8);
-    add_shape(scene, full_sphere(0.4), {.inside = add_medium(scene, Rgb(1), Rgb(0))}, translation({0, 0, 3}));
+    add_shape(scene, full_sphere(0.4), {.inside = add_medium(scene, Rgb(1), Rgb(0))},
+              translation({0, 0, 3}));
     add_shape(scene, full_sphere(0.4), {.inside = 0}, translation({1, 0, 3}));
     add_light(scene, PointLight{});
     for (const char* name : {"shade_volume", "shade_surface", "trace_shadow"})
@@ -87,7 +89,8 @@ TEST_F(EffectsTest, OneBoundaryNeedsNoHierarchy) {
         Shape& box = scene.shapes[0];
         if (change == 0) box.reverse_orientation = true;
         if (change == 1) std::get<Mesh>(box.geometry).triangles.pop_back();
-        if (change == 2) box.media.outside = scene.camera.medium = add_medium(scene, Rgb(0.1), Rgb(0));
+        if (change == 2)
+            box.media.outside = scene.camera.medium = add_medium(scene, Rgb(0.1), Rgb(0));
         EXPECT_FALSE(has_stage(scene, "walk_region")) << change;
     }
 }
@@ -101,10 +104,37 @@ TEST_F(EffectsTest, ALongerWayGivesTheSamePicture) {
     expect_agreement(device_batches(with_more, 32), device_batches(scene, 16), 16);
 }
 
+/// One stage per kind of boundary that occurs; those of other scenes are as they were.
+TEST_F(EffectsTest, OnlyBoundariesThatOccurHaveStages) {
+    const std::vector<std::string> names{"shade_dielectric", "shade_rough_dielectric",
+                                         "shade_conductor", "shade_rough_conductor"};
+    for (const std::string& name : names) {
+        EXPECT_FALSE(has_stage(busy_scene(), name));
+        EXPECT_FALSE(has_stage(plain_scene(), name));
+    }
+    for (std::size_t kind = 0; kind < names.size(); ++kind) {
+        Scene scene = plain_scene();
+        const double alpha = kind % 2 ? 0.2 : 0;
+        const int material = kind < 2 ? add_dielectric(scene, Rgb(1.5), alpha)
+                                      : add_conductor(scene, Rgb(0.2), Rgb(3), alpha);
+        scene.shapes.front().material = material; // a box that is no mere interface
+        for (const std::string& name : names)
+            EXPECT_EQ(has_stage(scene, name), name == names[kind]) << name;
+        for (const char* name : {"walk_region", "shade_surface", "cross_interface"})
+            EXPECT_FALSE(has_stage(scene, name)) << name;
+    }
+    Scene prism = plain_scene();
+    prism.shapes.front().material = add_dielectric(prism, {1.5, 1.51, 1.52});
+    EXPECT_EQ(effect(prism, "dispersion"), "yes");
+    EXPECT_EQ(effect(prism, "spectral MIS"), "yes");
+    EXPECT_EQ(effect(plain_scene(), "dispersion"), "no");
+}
+
 TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene busy = busy_scene();
-    for (const char* name : {"interfaces", "surfaces", "emitting surfaces", "shading normals", "media",
-                             "scattering", "anisotropic phase", "spectral MIS", "environment", "area lights"})
+    for (const char* name :
+         {"interfaces", "diffuse surfaces", "emitting surfaces", "shading normals", "media",
+          "scattering", "anisotropic phase", "spectral MIS", "environment", "area lights"})
         EXPECT_EQ(effect(busy, name), "yes") << name;
     for (const char* name : {"instances", "emission of media", "distant lights", "point lights",
                              "spot lights", "depth of field", "radiance limit"})
@@ -117,7 +147,7 @@ TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene furnace = read_scene(source_folder() + "/scenes/furnace.pbrt");
     EXPECT_EQ(effect(furnace, "geometry"), "one ellipsoid");
     EXPECT_EQ(effect(furnace, "channels"), "1");
-    EXPECT_EQ(effect(furnace, "surfaces"), "no");
+    EXPECT_EQ(effect(furnace, "diffuse surfaces"), "no");
     EXPECT_EQ(effect(read_scene(source_folder() + "/scenes/instances.pbrt"), "instances"), "yes");
 }
 

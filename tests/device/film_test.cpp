@@ -42,8 +42,10 @@ Scene step_edge(const PixelFilter& f, bool along_y) {
     Scene scene = empty_scene(kPixels, kPixels / 2.0);
     scene.filter = f;
     add_infinite(scene);
-    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), along_y ? std::acos(0.0) : 0.0, glm::dvec3(0, 0, 1));
-    add_shape(scene, square_mesh(100, 5, -1), {.material = black}, turn * translation({kEdge - 100, 0, 0}));
+    const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1), along_y ? std::acos(0.0) : 0.0, glm::dvec3(0, 0, 1));
+    add_shape(scene, square_mesh(100, 5, -1), {.material = black},
+              turn * translation({kEdge - 100, 0, 0}));
     return scene;
 }
 
@@ -64,7 +66,8 @@ double profile(const PixelFilter& f, double radius, double x) {
 Estimate line_mean(const Image& film, int position, bool along_y) {
     Estimate line{};
     for (int i = 0; i < kPixels; ++i) {
-        const std::size_t at = along_y ? film.offset(i, kPixels - 1 - position) : film.offset(position, i);
+        const std::size_t at =
+            along_y ? film.offset(i, kPixels - 1 - position) : film.offset(position, i);
         line.mean += film.pixels[at] / double{kPixels};
         line.standard_error += film.pixels[at + 3] / double{kPixels * kPixels};
     }

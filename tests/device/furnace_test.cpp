@@ -1,5 +1,5 @@
-// White furnaces: where nothing is lost and light of radiance 1 comes from everywhere, radiance is 1
-// everywhere.
+// White furnaces: where nothing is lost and light of radiance 1 comes from everywhere, radiance is
+// 1 everywhere.
 #include "device/device_test.h"
 
 #include <cmath>
@@ -21,11 +21,16 @@ Scene cloud(Boundary boundary, double optical_depth, double g, double albedo) {
     scene.integrator.max_depth = 10000000;
     add_infinite(scene);
     const double sigma_t = optical_depth / 2;
-    const Finish inside{.inside = add_medium(scene, Rgb(sigma_t * (1 - albedo)), Rgb(sigma_t * albedo), g)};
+    const Finish inside{
+        .inside = add_medium(scene, Rgb(sigma_t * (1 - albedo)), Rgb(sigma_t * albedo), g)};
     const Mesh box = box_mesh(glm::vec3(-1), glm::vec3(1));
     switch (boundary) {
-    case Boundary::sphere: add_shape(scene, full_sphere(1), inside); break;
-    case Boundary::box: add_shape(scene, box, inside); break;
+    case Boundary::sphere:
+        add_shape(scene, full_sphere(1), inside);
+        break;
+    case Boundary::box:
+        add_shape(scene, box, inside);
+        break;
     case Boundary::mesh: // turned, so that it needs a hierarchy
         add_shape(scene, box, inside, glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(1, 1, 0)));
         break;
@@ -36,7 +41,8 @@ Scene cloud(Boundary boundary, double optical_depth, double g, double albedo) {
 double worst_miss(const Image& film) {
     double worst = 0;
     for (const Rgb& color : colors_of(film))
-        worst = std::max({worst, std::abs(color.r - 1), std::abs(color.g - 1), std::abs(color.b - 1)});
+        worst =
+            std::max({worst, std::abs(color.r - 1), std::abs(color.g - 1), std::abs(color.b - 1)});
     return worst;
 }
 
@@ -54,9 +60,15 @@ class FurnaceTest : public DeviceTest {
     }
 };
 
-TEST_F(FurnaceTest, Sphere) { expect_all_one(Boundary::sphere, {0.01, 0.1, 1, 10, 100}); }
-TEST_F(FurnaceTest, Box) { expect_all_one(Boundary::box, {0.01, 0.1, 1, 10, 100}); }
-TEST_F(FurnaceTest, Mesh) { expect_all_one(Boundary::mesh, {0.01, 1, 20}); }
+TEST_F(FurnaceTest, Sphere) {
+    expect_all_one(Boundary::sphere, {0.01, 0.1, 1, 10, 100});
+}
+TEST_F(FurnaceTest, Box) {
+    expect_all_one(Boundary::box, {0.01, 0.1, 1, 10, 100});
+}
+TEST_F(FurnaceTest, Mesh) {
+    expect_all_one(Boundary::mesh, {0.01, 1, 20});
+}
 
 TEST_F(FurnaceTest, DenseMesh) {
     EXPECT_LT(worst_miss(render(cloud(Boundary::mesh, 100, 0.9, 1), 1)), kRounding);
@@ -97,12 +109,15 @@ TEST_F(FurnaceTest, GlowingEnclosure) {
                 Scene scene = cloud(Boundary::sphere, depth, g, albedo);
                 scene.lights.clear();
                 add_shape(scene, full_sphere(6),
-                          {.material = black, .area_light = add_area_light(scene, Rgb(1)), .reverse = true});
+                          {.material = black,
+                           .area_light = add_area_light(scene, Rgb(1)),
+                           .reverse = true});
                 return scene;
             };
             expect_mean(mean_of(enclosed(1), 64), 1, 1.05, 1);
             // Control: 10 % of absorption per scattering.
-            EXPECT_GT(mean_of(enclosed(0.9), 64).z(1), reject) << "g = " << g << ", depth " << depth;
+            EXPECT_GT(mean_of(enclosed(0.9), 64).z(1), reject)
+                << "g = " << g << ", depth " << depth;
         }
     }
 }

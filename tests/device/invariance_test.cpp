@@ -14,7 +14,8 @@ using Sums = std::vector<glm::dvec4>;
 class InvarianceTest : public DeviceTest {
   protected:
     /// The same picture as without the change, on the same random numbers, up to rounding.
-    static void expect_same_picture(const Scene& changed, const Scene& scene, std::uint32_t samples) {
+    static void expect_same_picture(const Scene& changed, const Scene& scene,
+                                    std::uint32_t samples) {
         expect_agreement(device_batches(changed, samples), device_batches(scene, samples),
                          scene.film.bounds.width());
     }
@@ -110,7 +111,8 @@ TEST_F(InvarianceTest, FewerSamplesAreAPrefixOfMore) {
         std::vector<std::pair<std::uint32_t, Sums>> seen;
         renderer.render(0, 64, [&](const Progress& progress) {
             if (progress.samples > 0 && (seen.empty() || seen.back().first < progress.samples)) {
-                const Sums sums = renderer.read_sums(); // may be of later samples than progress knew
+                const Sums sums =
+                    renderer.read_sums(); // may be of later samples than progress knew
                 seen.emplace_back(renderer.samples(), sums);
             }
             return true;
@@ -127,7 +129,8 @@ TEST_F(InvarianceTest, FewerSamplesAreAPrefixOfMore) {
 TEST_F(InvarianceTest, StoppingLeavesAPrefix) {
     const Scene scene = plain_scene();
     Renderer renderer(context(), scene, {.slots = 256, .run_length = 8});
-    const std::uint32_t samples = renderer.render(0, 1u << 20, [](const Progress&) { return false; });
+    const std::uint32_t samples =
+        renderer.render(0, 1u << 20, [](const Progress&) { return false; });
     EXPECT_GT(samples, 0);
     EXPECT_LT(samples, 1u << 20);
     EXPECT_EQ(renderer.samples(), samples);

@@ -1,5 +1,6 @@
-// Films with more texels than small devices put into a texel buffer (65536 is what Vulkan guarantees):
-// the same shaders then read storage buffers. Runs the fallback where the device is small, as SwiftShader is.
+// Films with more texels than small devices put into a texel buffer (65536 is what Vulkan
+// guarantees): the same shaders then read storage buffers. Runs the fallback where the device is
+// small, as SwiftShader is.
 #include "device/device_test.h"
 #include "device/test_scenes.h"
 

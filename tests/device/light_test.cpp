@@ -18,10 +18,16 @@ Scene lit_by(const std::function<void(Scene&)>& add) {
 }
 
 TEST_F(LightTest, LightsWithoutAShapeAgreeWithTheReference) {
-    expect_agreement(lit_by([](Scene& s) { add_light(s, PointLight{{9, 8, 7}, {0.5, 2, -1}}); }), 16);
     expect_agreement(lit_by([](Scene& s) {
-                         add_light(s, SpotLight{{40, 30, 20}, {2, 4, -2}, glm::normalize(glm::dvec3(-2, -4, 2)),
-                                                0.97, 0.93});
+                         add_light(s, PointLight{{9, 8, 7}, {0.5, 2, -1}});
+                     }),
+                     16);
+    expect_agreement(lit_by([](Scene& s) {
+                         add_light(s, SpotLight{{40, 30, 20},
+                                                {2, 4, -2},
+                                                glm::normalize(glm::dvec3(-2, -4, 2)),
+                                                0.97,
+                                                0.93});
                      }),
                      16);
     expect_agreement(
@@ -35,7 +41,9 @@ TEST_F(LightTest, LightsWithoutAShapeAgreeWithTheReference) {
 TEST_F(LightTest, ManyKindsTogetherAgreeWithTheReference) {
     Scene scene = busy_scene();
     add_light(scene, PointLight{{9, 8, 7}, {0.5, 2, -1}});
-    add_light(scene, SpotLight{{40, 30, 20}, {2, 2.5, -2}, glm::normalize(glm::dvec3(-1, -1, 1)), 0.95, 0.9});
+    add_light(
+        scene,
+        SpotLight{{40, 30, 20}, {2, 2.5, -2}, glm::normalize(glm::dvec3(-1, -1, 1)), 0.95, 0.9});
     add_light(scene, DistantLight{{1, 2, 1}, glm::normalize(glm::dvec3(1, -3, 2))});
     expect_agreement(scene, 16);
 }
@@ -57,35 +65,38 @@ class Scatter {
 };
 
 TEST_F(LightTest, AThousandPointLights) {
-    expect_agreement(lit_by([](Scene& scene) {
-                         Scatter scatter;
-                         for (int i = 0; i < 1000; ++i) {
-                             const glm::dvec3 at = scatter.point({-2.5, 0.5, -2.5}, {2.5, 2.8, 2.5});
-                             add_light(scene, PointLight{0.05 * scatter.point({0, 0, 0}, {1, 1, 1}), at});
-                         }
-                     }),
-                     16);
+    expect_agreement(
+        lit_by([](Scene& scene) {
+            Scatter scatter;
+            for (int i = 0; i < 1000; ++i) {
+                const glm::dvec3 at = scatter.point({-2.5, 0.5, -2.5}, {2.5, 2.8, 2.5});
+                add_light(scene, PointLight{0.05 * scatter.point({0, 0, 0}, {1, 1, 1}), at});
+            }
+        }),
+        16);
 }
 
 TEST_F(LightTest, TwoHundredEmittingTriangles) {
     for (bool by_power : {false, true}) {
-        expect_agreement(lit_by([&](Scene& scene) {
-                             Scatter scatter;
-                             Mesh mesh;
-                             for (std::uint32_t i = 0; i < 200; ++i) {
-                                 const glm::vec3 at = scatter.point({-2.5, 2, -2.5}, {2.5, 2.8, 2.5});
-                                 for (int corner = 0; corner < 3; ++corner)
-                                     mesh.positions.push_back(
-                                         at + glm::vec3(scatter.point(glm::dvec3(-0.2), glm::dvec3(0.2))));
-                                 mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-                             }
-                             const int light = add_area_light(scene, {8, 4, 2}, true);
-                             if (by_power)
-                                 scene.area_lights[static_cast<std::size_t>(light)] = {Rgb(0), {0.1, 0.2, 0.1}, true};
-                             add_shape(scene, mesh,
-                                       {.material = black, .inside = 0, .outside = 0, .area_light = light});
-                         }),
-                         16);
+        expect_agreement(
+            lit_by([&](Scene& scene) {
+                Scatter scatter;
+                Mesh mesh;
+                for (std::uint32_t i = 0; i < 200; ++i) {
+                    const glm::vec3 at = scatter.point({-2.5, 2, -2.5}, {2.5, 2.8, 2.5});
+                    for (int corner = 0; corner < 3; ++corner)
+                        mesh.positions.push_back(
+                            at + glm::vec3(scatter.point(glm::dvec3(-0.2), glm::dvec3(0.2))));
+                    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+                }
+                const int light = add_area_light(scene, {8, 4, 2}, true);
+                if (by_power)
+                    scene.area_lights[static_cast<std::size_t>(light)] = {
+                        Rgb(0), {0.1, 0.2, 0.1}, true};
+                add_shape(scene, mesh,
+                          {.material = black, .inside = 0, .outside = 0, .area_light = light});
+            }),
+            16);
     }
 }
 

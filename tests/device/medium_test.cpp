@@ -30,8 +30,8 @@ TEST_F(MediumTest, EmissionAndAbsorption) {
         for (double sigma : {1e-6, 0.3, 4.0}) {
             Scene scene = slab_view(sigma, 3, 0);
             if (hierarchy) add_shape(scene, Disk{}, {.material = black}, translation({90, 0, 0}));
-            // 1 - exp(-x) keeps its digits where x is small. The box is cut to seven digits in float32, and
-            // its front is 2 away.
+            // 1 - exp(-x) keeps its digits where x is small. The box is cut to seven digits in
+            // float32, and its front is 2 away.
             const double truth = -3 * std::expm1(-sigma);
             const double seen = render(scene, 8).at(1, 2, 0);
             EXPECT_NEAR(seen / truth, 1, 1e-5) << sigma;
@@ -51,11 +51,13 @@ TEST_F(MediumTest, EmissionOfMediaThatScatterAgreesWithTheReference) {
     }
 }
 
-/// Single scattering of a point light in an unbounded medium, by the equiangular substitution: the light
-/// is `offset` beside the ray, at `depth` along it; the ray ends at `end`.
+/// Single scattering of a point light in an unbounded medium, by the equiangular substitution: the
+/// light is `offset` beside the ray, at `depth` along it; the ray ends at `end`.
 struct Airlight {
     double sigma_s, sigma_t, g, offset, depth, end;
-    std::function<double(double)> intensity = [](double) { return 1; }; ///< Of the angle off the ray.
+    std::function<double(double)> intensity = [](double) {
+        return 1;
+    }; ///< Of the angle off the ray.
 
     double radiance() const {
         const double from = std::atan(-depth / offset), to = std::atan((end - depth) / offset);
@@ -137,13 +139,14 @@ TEST_F(MediumTest, NothingArrivesThroughAnUnboundedMedium) {
     EXPECT_EQ(mean_of(scene, 16).mean, Rgb(1));
 }
 
-/// An isotropically scattering ball in a white furnace: what it absorbs, averaged over a parallel view
-/// of its disk (Peierls' integral equation, 800 nodes; and a second Monte Carlo program).
+/// An isotropically scattering ball in a white furnace: what it absorbs, averaged over a parallel
+/// view of its disk (Peierls' integral equation, 800 nodes; and a second Monte Carlo program).
 TEST_F(MediumTest, AbsorptionOfAScatteringBall) {
     struct Case {
         double albedo, radius, absorbed;
     };
-    for (const Case& c : {Case{0.5, 1, 0.4577429}, Case{0.9, 5, 0.3765154}, Case{0.99, 10, 0.1061810}}) {
+    for (const Case& c :
+         {Case{0.5, 1, 0.4577429}, Case{0.9, 5, 0.3765154}, Case{0.99, 10, 0.1061810}}) {
         for (bool hierarchy : {false, true}) {
             Scene scene = empty_scene(32, 1);
             scene.camera.world_from_camera = translation({0, 0, -3});
@@ -153,7 +156,7 @@ TEST_F(MediumTest, AbsorptionOfAScatteringBall) {
                       {.inside = add_medium(scene, (1 - c.albedo) * sigma_t, c.albedo * sigma_t)});
             if (hierarchy) add_shape(scene, Disk{}, {.material = black}, translation({90, 0, 0}));
             const Estimate film = mean_of(scene, 256);
-            // The disk is pi / 4 of the picture; beside it, radiance is 1. 
+            // The disk is pi / 4 of the picture; beside it, radiance is 1.
             const auto mean = [](double absorbed) { return 1 - kPi / 4 * absorbed; };
             // Which rays meet the disk is noise, too: it is in the standard error.
             expect_mean(film, mean(c.absorbed), mean(0.98 * c.absorbed));

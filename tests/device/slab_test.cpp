@@ -1,10 +1,10 @@
 // The plane-parallel slab: albedo and transmittance for normal incidence, to more digits than a
 // renderer needs.
 //
-// Rays of the camera meet the slab at right angles. By reciprocity a pixel is the fraction of such a
-// beam that leaves the slab on the sides from which light of radiance 1 comes: under a sky that a
-// black screen covers on one side, the plane albedo or the transmittance; under the whole sky, their
-// sum.
+// Rays of the camera meet the slab at right angles. By reciprocity a pixel is the fraction of such
+// a beam that leaves the slab on the sides from which light of radiance 1 comes: under a sky that a
+// black screen covers on one side, the plane albedo or the transmittance; under the whole sky,
+// their sum.
 //
 // Numbers: adding and doubling, with streams enough for all digits, and a second solver; the case
 // with albedo 0.9 and g = 0.75 is van de Hulst's (1980). The orders of scattering likewise.
@@ -47,12 +47,13 @@ Scene slab(const SlabCase& c, Boundary boundary, Lit lit) {
         add_shape(scene, box_mesh({-half, -half, 0}, {half, half, 1}), {.inside = medium});
     // The screen, behind the camera or behind the slab, four times as wide.
     if (lit != Lit::both_sides)
-        add_shape(scene, square_mesh(4 * half, lit == Lit::far_side ? -2.0F : 3.0F, 1), {.material = black});
+        add_shape(scene, square_mesh(4 * half, lit == Lit::far_side ? -2.0F : 3.0F, 1),
+                  {.material = black});
     return scene;
 }
 
 double truth(const SlabCase& c, Lit lit) {
-    return lit == Lit::near_side ? c.reflectance
+    return lit == Lit::near_side  ? c.reflectance
            : lit == Lit::far_side ? c.transmittance
                                   : c.reflectance + c.transmittance;
 }
@@ -103,8 +104,8 @@ TEST_F(SlabTest, TurnedAndMoved) {
     expect_slab(kConservative, Boundary::box, Lit::near_side, 2048, by);
 }
 
-/// A red emitter shines on the near face, a green one on the far face: what scattering hits and what
-/// light sampling finds add up. These are the numbers of scenes/slab.pbrt.
+/// A red emitter shines on the near face, a green one on the far face: what scattering hits and
+/// what light sampling finds add up. These are the numbers of scenes/slab.pbrt.
 TEST_F(SlabTest, BetweenEmittingPlanes) {
     Scene scene = slab(kVanDeHulst, Boundary::quads, Lit::both_sides);
     scene.lights.clear();
@@ -120,7 +121,8 @@ TEST_F(SlabTest, BetweenEmittingPlanes) {
 }
 
 /// Paths with exactly n = 0 ... 5 scatterings, isotropic, optical thickness 1, albedo 1.
-constexpr double kOrderReflected[] = {0, 0.14201535, 0.07888152, 0.04668661, 0.02832607, 0.01737144};
+constexpr double kOrderReflected[] = {0,          0.14201535, 0.07888152,
+                                      0.04668661, 0.02832607, 0.01737144};
 constexpr double kOrderTransmitted[] = {0.36787944, 0.10617289, 0.06862215,
                                         0.04360838, 0.02738659, 0.01708273};
 
@@ -142,8 +144,8 @@ TEST_F(SlabTest, OrdersOfScattering) {
     }
 }
 
-/// Single scattering of a distant light has a closed form: with perpendicular irradiance 1, light and
-/// view at right angles to a slab of optical thickness 1, isotropic, albedo 1.
+/// Single scattering of a distant light has a closed form: with perpendicular irradiance 1, light
+/// and view at right angles to a slab of optical thickness 1, isotropic, albedo 1.
 TEST_F(SlabTest, SingleScatteringOfADistantLight) {
     constexpr double kBack = 0.0344039159475, kThrough = 0.0292749157622;
     for (Boundary boundary : {Boundary::box, Boundary::quads}) {

@@ -47,13 +47,18 @@ Scene busy_scene() {
 
     const glm::dmat4 lie_down = glm::rotate(glm::dmat4(1), -1.5707963, glm::dvec3(1, 0, 0));
     add_shape(scene, box_mesh({-3, -0.25, -3}, {3, 3, 3}), {.inside = fog});
-    add_shape(scene, square_mesh(8, 0, 1), {.material = floor, .inside = fog, .outside = fog}, lie_down);
-    add_shape(scene, full_sphere(0.5), {.material = paint, .outside = fog}, translation({-1, 0.5, 0.25}));
+    add_shape(scene, square_mesh(8, 0, 1), {.material = floor, .inside = fog, .outside = fog},
+              lie_down);
+    add_shape(scene, full_sphere(0.5), {.material = paint, .outside = fog},
+              translation({-1, 0.5, 0.25}));
     add_shape(scene, torus_mesh(16, 8, true), {.material = floor, .outside = fog},
               translation({0.25, 1, 1.5}) * scaling(glm::dvec3(0.75)));
-    add_shape(scene, full_sphere(0.75), {.inside = cloud, .outside = fog}, translation({1, 0.8, -0.25}));
+    add_shape(scene, full_sphere(0.75), {.inside = cloud, .outside = fog},
+              translation({1, 0.8, -0.25}));
     add_shape(scene, square_mesh(0.5, 0, 1),
-              {.material = black, .inside = fog, .outside = fog,
+              {.material = black,
+               .inside = fog,
+               .outside = fog,
                .area_light = add_area_light(scene, {6, 6, 5})},
               translation({0, 2.75, 0}) * glm::inverse(lie_down));
     add_infinite(scene, {0.1, 0.12, 0.15});
@@ -114,7 +119,8 @@ Scene scaled(Scene scene, double factor) {
         medium.sigma_s /= factor;
     }
     for (Light& light : scene.lights) {
-        if (auto* point = std::get_if<PointLight>(&light.emitter)) point->intensity *= factor * factor;
+        if (auto* point = std::get_if<PointLight>(&light.emitter))
+            point->intensity *= factor * factor;
         if (auto* spot = std::get_if<SpotLight>(&light.emitter)) spot->intensity *= factor * factor;
     }
     return scene;

@@ -8,8 +8,8 @@ namespace tyndall::device_test {
 /// A ring about the z axis; `normals` adds vertex normals.
 Mesh torus_mesh(int rings, int sides, bool normals = false);
 
-/// A room of fog within a box of interfaces: floor, ball, torus with vertex normals, a cloud of another
-/// medium, an area light and a dim sky. 16 x 16 pixels.
+/// A room of fog within a box of interfaces: floor, ball, torus with vertex normals, a cloud of
+/// another medium, an area light and a dim sky. 16 x 16 pixels.
 Scene busy_scene();
 
 /// The same without its lights. Medium 0 fills the room.

@@ -28,7 +28,7 @@ set(forbidden
   "src/stats/a.cpp|#include <OpenImageIO/imageio.h>"
   "src/main.cpp|#include \"render/renderer.h\""
   "src/novel/a.cpp|int x"
-  "shaders/shared/a.h|#include \"records.h\""
+  "shaders/shared/a.h|#include \"lib/phase.glsl\""
   "shaders/lib/a.glsl|#include \"wavefront/scene.glsl\""
   "shaders/lib/a.glsl|layout(binding = 0) buffer A"
   "shaders/wavefront/a.comp|#include \"wavefront/b.comp\"")

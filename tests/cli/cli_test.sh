@@ -1,0 +1,149 @@
+#!/bin/sh
+# The command line as a user meets it: exit codes, messages, files. One case a function, named by the first argument;
+# cli_test.sh CASE PROGRAM SCENES
+set -eu
+case_name=$1
+program=$2
+scenes=$3
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+fail() {
+  echo "FAILED: $*" >&2
+  echo "--- output:" >&2
+  cat out err >&2
+  exit 1
+}
+
+# expect STATUS arguments...: the program exits with it; its output is in the files out and err.
+expect() {
+  wanted=$1
+  shift
+  got=0
+  "$program" "$@" >out 2>err || got=$?
+  [ "$got" = "$wanted" ] || fail "status $got, not $wanted: tyndall $*"
+}
+
+says() { grep -qF -- "$1" out err || fail "does not say: $1"; }
+is_silent_about() { ! grep -qF -- "$1" out err || fail "says: $1"; }
+exists() { [ -s "$1" ] || fail "no file $1"; }
+is_absent() { [ ! -e "$1" ] || fail "there is a file $1"; }
+leaves_only() { # files in the folder besides out and err; nothing half written
+  [ "$(ls -A | grep -vxE 'out|err' | sort | tr '\n' ' ')" = "$*${*:+ }" ] || fail "folder holds: $(ls -A | tr '\n' ' ')"
+}
+
+small="--size 24x24 --quiet"
+
+usage() {
+  expect 2
+  expect 2 render
+  expect 2 render "$scenes/slab.pbrt" --no-such-option
+  says --no-such-option
+  expect 2 render "$scenes/slab.pbrt" --spp 0
+  expect 2 render "$scenes/slab.pbrt" --size 12
+  expect 2 render "$scenes/slab.pbrt" --crop 0,2,0,1
+  expect 2 frobnicate
+  expect 0 --help
+  says render
+  expect 0 --version
+  leaves_only
+}
+
+bad_scenes() {
+  expect 2 render missing.pbrt -o a.exr
+  says missing.pbrt
+  printf 'WorldBegin\nMaterial "hair"\nShape "sphere" "float radius" -1\n' >bad.pbrt
+  expect 2 render bad.pbrt -o a.exr
+  says 'bad.pbrt:2:1: error: material "hair" is not supported yet'
+  says 'bad.pbrt:3:16: error:'
+  head -c 100000 /dev/urandom >garbage.pbrt
+  expect 2 render garbage.pbrt -o a.exr
+  says garbage.pbrt:1:
+  echo 'Include "loop.pbrt"' >loop.pbrt
+  expect 2 render loop.pbrt -o a.exr
+  says loop.pbrt:1:
+  is_absent a.exr
+}
+
+no_device() {
+  expect 3 render "$scenes/slab.pbrt" --device 'no such device' -o a.exr
+  says 'no such device'
+  leaves_only
+  # Without any driver, it says what to install.
+  VK_DRIVER_FILES=/dev/null VK_ICD_FILENAMES=/dev/null expect 3 render "$scenes/slab.pbrt" -o a.exr
+  says mesa-vulkan-drivers
+  leaves_only
+  expect 0 devices
+  says 0:
+}
+
+outputs() {
+  expect 0 render "$scenes/slab.pbrt" $small --spp 4 -o a.exr -o a.png --stats a.json
+  leaves_only a.exr a.json a.png
+  oiiotool --info -v a.exr >out
+  for attribute in samplesPerPixel tyndall:seed tyndall:scene_sha256 tyndall:device; do says $attribute; done
+  says variance.R
+  grep -q '"spp": 4' a.json || fail "statistics without samples"
+  # What cannot be written is told, and leaves nothing behind.
+  expect 2 render "$scenes/slab.pbrt" $small --spp 4 -o a.docx
+  says a.docx
+  expect 1 render "$scenes/slab.pbrt" $small --spp 4 -o no/such/folder/a.exr
+  says no/such/folder
+  leaves_only a.exr a.json a.png
+}
+
+same_seed() {
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o a.exr
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o b.exr --slots 128 --workgroup 32 --run-length 3
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 8 -o c.exr
+  idiff -q -fail 0 a.exr b.exr >out 2>err || fail "same seed, other picture"
+  ! idiff -q -fail 0 a.exr c.exr >out 2>err || fail "other seed, same picture" # control
+}
+
+interrupt() {
+  "$program" render "$scenes/fog-room.pbrt" --size 64x64 --spp 1000000 -o a.exr >out 2>err &
+  process=$!
+  until grep -q spp err; do # its progress line: it is under way
+    kill -0 $process || fail "ended by itself"
+    sleep 0.2
+  done
+  kill -INT $process
+  got=0
+  wait $process || got=$?
+  [ $got = 130 ] || fail "status $got, not 130"
+  leaves_only a.exr
+}
+
+time_limit() {
+  expect 0 render "$scenes/slab.pbrt" --size 32x32 --spp 100000000 --time 2 --write-interval 0.5 -o a.exr
+  says spp
+  leaves_only a.exr
+}
+
+verify() {
+  expect 0 verify "$scenes/slab.pbrt" $small --spp 512
+  expect 1 verify "$scenes/slab.pbrt" $small --spp 512 --corrupt 0.01 # control
+}
+
+compare() {
+  expect 0 render "$scenes/chromatic.pbrt" $small --spp 64 --seed 1 -o a.exr
+  expect 0 render "$scenes/chromatic.pbrt" $small --spp 64 --seed 2 -o b.exr
+  expect 0 compare a.exr b.exr --json
+  grep -q '^{' out || fail "no JSON"
+  expect 0 compare a.exr a.exr
+  says ' 0 '
+  oiiotool a.exr --mulc 1.2,1.2,1.2,1,1,1 -o c.exr
+  expect 0 compare c.exr a.exr
+  says 1.2000
+  expect 2 compare a.exr missing.exr
+}
+
+info() {
+  expect 0 info "$scenes/fog-room.pbrt"
+  says scattering
+  expect 0 info "$scenes/fog-room.pbrt" --json
+  grep -q '^{' out || fail "no JSON"
+}
+
+"$case_name"
