@@ -1,5 +1,6 @@
 #include "reference/medium.h"
 
+#include "reference/phase.h"
 #include "reference/quadrature.h"
 
 #include <algorithm>
@@ -47,7 +48,8 @@ bool has_channel_grids(const Medium& medium) {
 }
 
 bool is_grey(const Medium& medium) {
-    return !has_channel_grids(medium) && all_equal(medium.sigma_a) && all_equal(medium.sigma_s);
+    return !has_channel_grids(medium) && all_equal(medium.sigma_a) && all_equal(medium.sigma_s) &&
+           !is_chromatic(medium.phases);
 }
 
 bool is_scattering(const Medium& medium) {
@@ -105,6 +107,19 @@ Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Thro
     Throughput after = before;
     after.beta *= contribution / average;
     after.ratio *= probability / average;
+    return after;
+}
+
+double mean_density(const Rgb& value, const Throughput& throughput) {
+    return all_equal(value) ? value.x : mean(throughput.ratio * value);
+}
+
+Throughput after_scattering(const Rgb& value, const Throughput& before) {
+    if (all_equal(value)) return before; // exactly
+    const Rgb factor = value / mean_density(value, before);
+    Throughput after = before;
+    after.beta *= factor;
+    after.ratio *= factor;
     return after;
 }
 
