@@ -83,7 +83,8 @@ TEST(PhaseKinds, InversionIsExact) {
 
 TEST(PhaseKinds, EndsAreReachedAndForwardIsForward) {
     for (const Mixture& m : mixtures()) {
-        EXPECT_NEAR(sample_angle(m.back(), 0).cosine, -1, 1e-15);
+        // A table's CDF is a sum of up to 2e4 terms.
+        EXPECT_NEAR(sample_angle(m.back(), 0).cosine, -1, 1e-12);
         EXPECT_EQ(sample_angle(m.back(), 1).cosine, 1);
         EXPECT_EQ(sample_angle(m.back(), 1).sine, 0);
     }
