@@ -72,7 +72,22 @@ float rough_dielectric_weight(Boundary b, float alpha, vec3 wo, vec3 wi) {
     return ggx_weight(wo, wi, alpha) / (wi.z > 0.0 ? 1.0 : b.eta * b.eta);
 }
 
-/// A rough boundary of dielectrics: both of these for a direction wi of any origin.
+/// Draws wi for a rough boundary of dielectrics: `u` chooses the facet, `choice` whether it
+/// reflects or refracts. False if that sends it to the wrong side of the surface, from where
+/// nothing comes. Source: pbrt-v4, DielectricBxDF::Sample_f.
+bool sample_rough_dielectric(Boundary b, float alpha, vec3 wo, vec2 u, float choice, out vec3 wi,
+                             out float pdf, out float weight) {
+    const vec3 m = sample_visible_normal(wo, alpha, u.x, u.y);
+    const float c = clamp(dot(wo, m), 0.0, 1.0);
+    const float f = fresnel_dielectric(b, c);
+    const bool reflects = choice < f;
+    wi = reflects ? reflect_about(wo, m, c) : refract_through(b, wo, m, c);
+    pdf = rough_dielectric_pdf(b, alpha, wo, m, c, f, reflects);
+    weight = rough_dielectric_weight(b, alpha, wo, wi);
+    return reflects ? wi.z > 0.0 : wi.z < 0.0;
+}
+
+/// Density and weight of a direction wi of any origin; light sampling needs them.
 /// Source: pbrt-v4, DielectricBxDF::f and ::PDF.
 void evaluate_rough_dielectric(Boundary b, float alpha, vec3 wo, vec3 wi, out float pdf,
                                out float weight) {
@@ -89,7 +104,20 @@ void evaluate_rough_dielectric(Boundary b, float alpha, vec3 wo, vec3 wi, out fl
     weight = rough_dielectric_weight(b, alpha, wo, wi);
 }
 
-/// A rough metal, likewise; both sides reflect.   Source: pbrt-v4, ConductorBxDF::f and ::PDF.
+/// Draws wi for rough metal, both sides of which reflect; otherwise as for dielectrics.
+/// Source: pbrt-v4, ConductorBxDF::Sample_f.
+bool sample_rough_conductor(vec3 eta, vec3 k, float alpha, vec3 wo, vec2 u, out vec3 wi,
+                            out float pdf, out vec3 weight) {
+    const vec3 m = sample_visible_normal(wo, alpha, u.x, u.y);
+    const float c = clamp(dot(wo, m), 0.0, 1.0);
+    wi = reflect_about(wo, m, c);
+    pdf = 0.25 * ggx_visible(wo, m, alpha);
+    weight = fresnel_conductor(eta, k, c) * ggx_weight(wo, wi, alpha);
+    return wi.z > 0.0;
+}
+
+/// Density and weight of a direction wi of any origin.
+/// Source: pbrt-v4, ConductorBxDF::f and ::PDF.
 void evaluate_rough_conductor(vec3 eta, vec3 k, float alpha, vec3 wo, vec3 wi, out float pdf,
                               out vec3 weight) {
     pdf = 0.0;

@@ -26,15 +26,15 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, u
                                  weight);
         shade_light(slot, p, s, shape, light, pdf * weight, pdf);
     }
-    const vec3 m = sample_visible_normal(wo, shape.alpha, unit_float(words.y), unit_float(words.z));
-    const float c = clamp(dot(wo, m), 0.0, 1.0);
-    const vec3 wi = reflect_about(wo, m, c);
-    if (wi.z <= 0.0) { // facets that face the other way send it into the surface
+    const vec2 u = vec2(unit_float(words.y), unit_float(words.z));
+    vec3 wi, weight;
+    float pdf;
+    if (sample_rough_conductor(shape.eta, shape.k, shape.alpha, wo, u, wi, pdf, weight)) {
+        p.throughput *= weight;
+        leave(p, s, shape, normalize(frame * wi), pdf);
+    } else {
         p.status = STATUS_ENDED;
-        return;
     }
-    p.throughput *= fresnel_conductor(shape.eta, shape.k, c) * ggx_weight(wo, wi, shape.alpha);
-    leave(p, s, shape, normalize(frame * wi), 0.25 * ggx_visible(wo, m, shape.alpha));
 }
 
 void main() {

@@ -49,19 +49,16 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, f
         evaluate_rough_dielectric(boundary, shape.alpha, wo, light.direction * frame, pdf, weight);
         shade_light(slot, p, s, shape, light, vec3(pdf * weight), pdf);
     }
-    const vec3 m = sample_visible_normal(wo, shape.alpha, unit_float(words.y), unit_float(words.z));
-    const float c = clamp(dot(wo, m), 0.0, 1.0);
-    const float f = fresnel_dielectric(boundary, c);
-    const bool reflects = unit_float(light_words.w) < f;
-    const vec3 wi = reflects ? reflect_about(wo, m, c) : refract_through(boundary, wo, m, c);
-    if (reflects ? wi.z <= 0.0
-                 : wi.z >= 0.0) { // facets that face the other way send it into the surface
+    const vec2 u = vec2(unit_float(words.y), unit_float(words.z));
+    vec3 wi;
+    float pdf, weight;
+    if (sample_rough_dielectric(boundary, shape.alpha, wo, u, unit_float(light_words.w), wi, pdf,
+                                weight)) {
+        p.throughput *= weight;
+        leave(p, s, shape, normalize(frame * wi), pdf);
+    } else {
         p.status = STATUS_ENDED;
-        return;
     }
-    p.throughput *= rough_dielectric_weight(boundary, shape.alpha, wo, wi);
-    leave(p, s, shape, normalize(frame * wi),
-          rough_dielectric_pdf(boundary, shape.alpha, wo, m, c, f, reflects));
 }
 
 void main() {

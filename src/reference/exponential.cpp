@@ -12,8 +12,9 @@ double ExponentialLine::column(double t) const {
     const double fall = std::abs(rise) / scale_height;
     const double lower_end = rise < 0 ? start + rise * t : start;
     const double greatest = std::exp(-lower_end / scale_height);
-    if (greatest == 0) return 0; // even of an infinite line
-    return fall == 0 ? greatest * t : greatest * (-std::expm1(-fall * t) / fall);
+    if (greatest == 0) return 0;               // even of an infinite line
+    const bool is_level = !(fall * t > 1e-17); // up to rounding
+    return is_level ? greatest * t : greatest * (-std::expm1(-fall * t) / fall);
 }
 
 double ExponentialLine::distance(double column) const {

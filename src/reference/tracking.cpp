@@ -1,7 +1,7 @@
 #include "reference/tracking.h"
 
+#include "reference/blackbody.h"
 #include "reference/medium.h"
-#include "scene/spectrum.h"
 
 #include <algorithm>
 
@@ -9,8 +9,6 @@ namespace tyndall::reference {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Below this temperature a medium emits nothing (pbrt's rule), in kelvin.
-constexpr double coldest_emission = 100;
 /// Scale heights beyond which the density of an atmosphere is out of range.
 constexpr double vacuum_height = 745;
 
@@ -32,9 +30,8 @@ Rgb emission_at(const GridDensity& grid, const Rgb& coefficient, const glm::ivec
     Rgb emission = scaled(coefficient, grid.emission, voxel);
     if (emission == Rgb(0)) return emission;
     if (grid.emission_scale) emission *= grid.emission_scale->value(voxel);
-    if (!grid.temperature) return emission;
-    const double kelvin = grid.temperature->value(voxel);
-    return kelvin > coldest_emission ? emission * blackbody_emission(kelvin) : Rgb(0);
+    if (grid.temperature) emission *= blackbody_radiance(grid.temperature->value(voxel));
+    return emission;
 }
 
 /// The part of the line within the box, cut to [0, t_end]; empty (first >= second) if there is

@@ -1,6 +1,7 @@
 #include "render/scene_tables.h"
 
 #include "core/error.h"
+#include "render/geometry_tables.h"
 #include "render/light_table.h"
 #include "render/primitives.h"
 #include "render/volume_tables.h"
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
-#include <numeric>
 #include <optional>
 
 namespace tyndall {
@@ -18,18 +17,9 @@ namespace {
 
 using namespace shared;
 
-constexpr std::uint32_t kLeafSize = 4;
-/// Testing so many triangles one after the other, in step, costs less than a walk that lanes take
-/// differently.
-constexpr std::uint32_t kOneLeafSize = 24;
-
 static_assert(sizeof(CameraRecord) == CAMERA_TEXELS * 16);
 static_assert(sizeof(MediumRecord) == MEDIUM_TEXELS * 16);
 static_assert(sizeof(ShapeRecord) == SHAPE_TEXELS * 16);
-static_assert(sizeof(PrimitiveRecord) == PRIMITIVE_TEXELS * 16);
-static_assert(sizeof(QuadricRecord) == QUADRIC_TEXELS * 16);
-static_assert(sizeof(InstanceRecord) == INSTANCE_TEXELS * 16);
-static_assert(sizeof(NodeRecord) == NODE_TEXELS * 16);
 static_assert(sizeof(LightRecord) == LIGHT_TEXELS * 16);
 static_assert(sizeof(RegionRecord) == REGION_TEXELS * 16);
 
@@ -59,15 +49,6 @@ class Packer {
     CameraRecord camera() const;
     std::vector<glm::vec4> filter_table() const;
     std::vector<ShapeRecord> shapes();
-    struct Roots {
-        std::uint32_t triangles = NONE;
-        std::uint32_t others = NONE;
-        bool is_empty() const { return triangles == NONE && others == NONE; }
-    };
-    void build_geometry();
-    Roots build_hierarchies(ShapeSet& set, Bounds& bounds);
-    std::uint32_t build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size,
-                                  std::uint32_t one_leaf_size, Bounds& bounds);
     void collect_emitters();
     std::vector<LightRecord> lights();
     void pack_geometry();
@@ -85,16 +66,8 @@ class Packer {
     SceneTables tables_;
     std::optional<VolumePacker> volumes_;
     std::vector<const Shape*> shape_list_; ///< By shape record.
-    std::vector<PrimitiveRecord> primitives_;
-    std::vector<double> areas_;
-    std::vector<std::uint64_t>
-        source_order_; ///< Of each primitive, in the order of the scene's shapes.
-    std::vector<NodeRecord> nodes_;
-    std::vector<glm::vec4> vertex_normals_;
-    std::vector<QuadricRecord> quadrics_;
-    std::vector<InstanceRecord> instances_;
+    GeometryTables geometry_;
     std::vector<Emitter> emitters_;
-    Bounds bounds_;
 };
 
 template<typename T>
@@ -188,139 +161,24 @@ std::vector<ShapeRecord> Packer::shapes() {
     return records;
 }
 
-/// Appends primitives in leaf order with their nodes; returns the root's child word.
-std::uint32_t Packer::build_hierarchy(PrimitiveSet& set, std::uint32_t leaf_size,
-                                      std::uint32_t one_leaf_size, Bounds& bounds) {
-    tables_.primitives |= set.kinds;
-    const Bvh bvh = build_bvh(set.bounds, leaf_size, one_leaf_size);
-    bounds = bvh.bounds;
-    if (!bvh.nodes.empty()) tables_.primitives |= PRIMITIVE_TREES;
-    const auto first_node = static_cast<std::uint32_t>(nodes_.size());
-    const auto first_primitive = static_cast<std::uint32_t>(primitives_.size());
-    const auto first_normal = static_cast<std::uint32_t>(vertex_normals_.size());
-    const auto first_quadric = static_cast<std::uint32_t>(quadrics_.size());
-    if (first_primitive + set.primitives.size() > LEAF_FIRST_MASK)
-        throw Error(ExitStatus::failed, fmt::format("more than {} primitives", LEAF_FIRST_MASK));
-    const auto rebase = [&](std::uint32_t child) {
-        return child + (child & LEAF ? first_primitive : first_node);
-    };
-    for (NodeRecord node : bvh.nodes) {
-        node.child0 = rebase(node.child0);
-        node.child1 = rebase(node.child1);
-        nodes_.push_back(node);
-    }
-    for (std::uint32_t index : bvh.order) {
-        PrimitiveRecord p = set.primitives[index];
-        const std::uint32_t kind = p.kind_and_shape >> KIND_SHIFT;
-        if (kind == KIND_SPHERE || kind == KIND_DISK)
-            p.extra += first_quadric;
-        else if (kind != KIND_INSTANCE && p.extra != NONE)
-            p.extra += first_normal;
-        primitives_.push_back(p);
-        areas_.push_back(set.areas[index]);
-        source_order_.push_back(set.source_order[index]);
-    }
-    vertex_normals_.insert(vertex_normals_.end(), set.vertex_normals.begin(),
-                           set.vertex_normals.end());
-    quadrics_.insert(quadrics_.end(), set.quadrics.begin(), set.quadrics.end());
-    return rebase(bvh.root);
-}
-
-Bounds unite(const Bounds& a, const Bounds& b) {
-    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
-}
-
-/// Box of the image of a box.
-Bounds transform_bounds(const glm::dmat4& m, const Bounds& b) {
-    glm::dvec3 lower(INFINITY), upper(-INFINITY);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p =
-            m * glm::dvec4(corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y,
-                           corner & 4 ? b.upper.z : b.lower.z, 1);
-        lower = glm::min(lower, p);
-        upper = glm::max(upper, p);
-    }
-    // What is found inside with the error of float32 transforms must not be cut off outside.
-    const glm::dvec3 margin = 2e-6 * glm::max(glm::abs(lower), glm::abs(upper));
-    return round_outward(lower - margin, upper + margin);
-}
-
-Packer::Roots Packer::build_hierarchies(ShapeSet& set, Bounds& bounds) {
-    Roots roots;
-    Bounds triangle_bounds, other_bounds;
-    if (!set.triangles.primitives.empty())
-        roots.triangles = build_hierarchy(set.triangles, kLeafSize, kOneLeafSize, triangle_bounds);
-    if (!set.others.primitives.empty())
-        roots.others = build_hierarchy(set.others, 1, 4, other_bounds);
-    bounds = roots.triangles == NONE ? other_bounds
-             : roots.others == NONE  ? triangle_bounds
-                                     : unite(triangle_bounds, other_bounds);
-    return roots;
-}
-
-void Packer::build_geometry() {
-    const auto world_shape_count = static_cast<std::uint32_t>(scene_.shapes.size());
-    std::vector<Roots> object_roots;
-    std::vector<Bounds> object_bounds;
-    std::uint32_t shape_index = world_shape_count;
-    for (const ObjectDefinition& object : scene_.objects) {
-        ShapeSet set;
-        for (const Shape& shape : object.shapes)
-            append_shape(shape, glm::dmat4(1), shape_index++, set);
-        object_roots.push_back(build_hierarchies(set, object_bounds.emplace_back()));
-    }
-    ShapeSet world;
-    for (std::uint32_t i = 0; i < world_shape_count; ++i)
-        append_shape(scene_.shapes[i], render_from_world_, i, world);
-    Bounds bounds;
-    const Roots roots = build_hierarchies(world, bounds);
-    tables_.push.triangle_root = roots.triangles;
-    tables_.push.other_root = roots.others;
-    tables_.push.instance_root = NONE;
-    if (!roots.is_empty()) bounds_ = bounds;
-
-    PrimitiveSet instances;
-    for (const ObjectInstance& instance : scene_.instances) {
-        const Roots& object = object_roots[instance.object];
-        if (object.is_empty()) continue;
-        const glm::dmat4 m = render_from_world_ * instance.world_from_definition;
-        instances.primitives.push_back({.kind_and_shape = KIND_INSTANCE << KIND_SHIFT,
-                                        .light = NONE,
-                                        .extra = static_cast<std::uint32_t>(instances_.size())});
-        instances.bounds.push_back(transform_bounds(m, object_bounds[instance.object]));
-        instances.areas.push_back(0);
-        instances.source_order.push_back(0);
-        instances_.push_back(
-            {.object_from_world = make_affine(glm::inverse(m)),
-             .world_from_object = make_affine(m),
-             .triangle_root = object.triangles,
-             .other_root = object.others,
-             .medium_shift = volumes_->medium_shift(instance.world_from_definition)});
-    }
-    if (instances.primitives.empty()) return;
-    instances.kinds = PRIMITIVE_INSTANCES;
-    tables_.push.instance_root = build_hierarchy(instances, 1, 1, bounds); // one to a leaf
-    bounds_ = roots.is_empty() ? bounds : unite(bounds_, bounds);
-}
-
 /// Every primitive that emits is a light of its own, in the order of the scene (not of the
 /// hierarchy).
 void Packer::collect_emitters() {
-    for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
-        if (primitives_[i].kind_and_shape >> KIND_SHIFT == KIND_INSTANCE) continue;
-        const Shape& shape = *shape_list_[primitives_[i].kind_and_shape & SHAPE_MASK];
-        if (shape.area_light < 0 || !(areas_[i] > 0)) continue;
+    for (std::uint32_t i = 0; i < geometry_.primitives.size(); ++i) {
+        if (geometry_.primitives[i].kind_and_shape >> KIND_SHIFT == KIND_INSTANCE) continue;
+        const Shape& shape = *shape_list_[geometry_.primitives[i].kind_and_shape & SHAPE_MASK];
+        if (shape.area_light < 0 || !(geometry_.areas[i] > 0)) continue;
         constexpr std::array<std::uint32_t, 4> kinds{PRIMITIVE_TRIANGLES, PRIMITIVE_PATCHES,
                                                      PRIMITIVE_SPHERES, PRIMITIVE_DISKS};
-        tables_.emitters |= kinds[primitives_[i].kind_and_shape >> KIND_SHIFT];
+        tables_.emitters |= kinds[geometry_.primitives[i].kind_and_shape >> KIND_SHIFT];
         const AreaLight& light = scene_.area_lights[shape.area_light];
-        const Rgb radiance = light.radiance + light.power_radiance / areas_[i];
+        const Rgb radiance = light.radiance + light.power_radiance / geometry_.areas[i];
         const double sides = light.two_sided ? 2 : 1;
         emitters_.push_back(
-            {i, radiance, sides * 3.14159265358979323846 * areas_[i] * mean(radiance)});
+            {i, radiance, sides * 3.14159265358979323846 * geometry_.areas[i] * mean(radiance)});
     }
     std::sort(emitters_.begin(), emitters_.end(), [&](const Emitter& a, const Emitter& b) {
-        return source_order_[a.primitive] < source_order_[b.primitive];
+        return geometry_.source_order[a.primitive] < geometry_.source_order[b.primitive];
     });
 }
 
@@ -330,7 +188,8 @@ std::vector<LightRecord> Packer::lights() {
     std::vector<double> powers;
     if (!effects_.samples_lights) return records;
     // What a distant light shines on: the ball around all surfaces; without any, that of radius 1.
-    const double diameter = glm::length(glm::dvec3(bounds_.upper) - glm::dvec3(bounds_.lower));
+    const double diameter =
+        glm::length(glm::dvec3(geometry_.bounds.upper) - glm::dvec3(geometry_.bounds.lower));
     const double disk = diameter > 0 ? pi * diameter * diameter / 4 : pi;
     for (const Light& light : scene_.lights) {
         if (const auto* d = std::get_if<DistantLight>(&light.emitter)) {
@@ -353,7 +212,8 @@ std::vector<LightRecord> Packer::lights() {
         }
     }
     for (const Emitter& e : emitters_) {
-        const Shape& shape = *shape_list_[primitives_[e.primitive].kind_and_shape & SHAPE_MASK];
+        const Shape& shape =
+            *shape_list_[geometry_.primitives[e.primitive].kind_and_shape & SHAPE_MASK];
         const bool two_sided = scene_.area_lights[shape.area_light].two_sided;
         records.push_back({.kind = two_sided ? LIGHT_AREA_TWO_SIDED : LIGHT_AREA,
                            .radiance = e.radiance,
@@ -377,13 +237,13 @@ void Packer::pack_geometry() {
     const auto first_area_light = static_cast<std::uint32_t>(
         light_records.size() - std::min(light_records.size(), emitters_.size()));
     for (std::uint32_t i = 0; i < emitters_.size() && !light_records.empty(); ++i)
-        primitives_[emitters_[i].primitive].light = first_area_light + i;
-    tables_.primitive_count = primitives_.size();
-    tables_.push.primitives = append(primitives_, "primitives");
-    tables_.push.nodes = append(nodes_, "hierarchy");
-    tables_.push.vertex_normals = append(vertex_normals_, "vertex normals");
-    tables_.push.quadrics = append(quadrics_, "quadrics");
-    tables_.push.instances = append(instances_, "instances");
+        geometry_.primitives[emitters_[i].primitive].light = first_area_light + i;
+    tables_.primitive_count = geometry_.primitives.size();
+    tables_.push.primitives = append(geometry_.primitives, "primitives");
+    tables_.push.nodes = append(geometry_.nodes, "hierarchy");
+    tables_.push.vertex_normals = append(geometry_.vertex_normals, "vertex normals");
+    tables_.push.quadrics = append(geometry_.quadrics, "quadrics");
+    tables_.push.instances = append(geometry_.instances, "instances");
     tables_.push.light_count = static_cast<std::uint32_t>(light_records.size());
     tables_.push.lights = append(light_records, "lights");
 }
@@ -406,11 +266,17 @@ SceneTables Packer::pack() {
         record.upper = glm::vec3(r.upper - origin_);
         record.medium = medium_word(r.medium);
         tables_.push.region = append(std::vector{record}, "region");
-        bounds_ = {record.lower, record.upper};
+        geometry_.bounds = {record.lower, record.upper};
     }
     if (effects_.features.geometry == GEOMETRY_BVH) {
         tables_.push.shapes = append(shapes(), "shapes");
-        build_geometry();
+        geometry_ = make_geometry_tables(scene_, render_from_world_, [this](const glm::dmat4& m) {
+            return volumes_->medium_shift(m);
+        });
+        tables_.primitives = geometry_.kinds;
+        tables_.push.triangle_root = geometry_.world.triangles;
+        tables_.push.other_root = geometry_.world.others;
+        tables_.push.instance_root = geometry_.instance_root;
     }
     pack_geometry();
     tables_.push.media = append(volumes_->take_records(), "media");

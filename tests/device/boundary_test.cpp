@@ -233,20 +233,31 @@ TEST_F(BoundaryTest, ScatteringSlabsOfAnotherIndex) {
             add_shape(scene, box_mesh({-1e4F, -1e4F, 0}, {1e4F, 1e4F, 1}),
                       {.material = add_dielectric(scene, Rgb(c.eta)), .inside = milk});
             const double truth = seen == Seen::reflected ? c.reflectance : c.transmittance;
-            expect_mean(mean_of(scene, c.samples), truth, 0.97 * truth);
+            expect_mean(mean_of(scene, c.samples), truth, 0.95 * truth);
         }
 }
 
-/// Crossing such a boundary is an event that draws a lobe; but nothing changes: not the direction,
-/// nor the medium, which is the same on both sides.
+/// Crossing such a boundary changes nothing: not the direction, nor the medium, which is the same
+/// on both sides. Here it absorbs, so that a pixel is a length of way, without noise.
 TEST_F(BoundaryTest, AnIndexOfOneIsNoBoundary) {
-    const Scene scene = plain_scene();
-    for (const double alpha : {0.0, 0.3}) {
-        Scene with_ball = scene;
-        add_shape(with_ball, full_sphere(0.8),
-                  {.material = add_dielectric(with_ball, Rgb(1), alpha)});
-        expect_agreement(device_batches(with_ball, 32), device_batches(scene, 16), 16);
-    }
+    Scene scene = plain_scene();
+    scene.media.front().sigma_s = Rgb(0);
+    const std::vector<Rgb> expected = colors_of(render(scene, 4));
+    for (const double alpha : {0.0, 0.3})
+        for (const double eta : {1.0, 1.01}) {
+            Scene with_ball = scene;
+            add_shape(with_ball, full_sphere(0.8),
+                      {.material = add_dielectric(with_ball, Rgb(eta), alpha)});
+            const std::vector<Rgb> found = colors_of(render(with_ball, 4));
+            double worst = 0;
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                worst = std::max(worst, glm::length(found[i] / expected[i] - 1.0));
+            if (eta == 1)
+                EXPECT_LT(worst, 1e-5)
+                    << alpha; // a part in 10^6 of a way of 3.5, for each of three
+            else
+                EXPECT_GT(worst, 1e-3) << "no teeth";
+        }
 }
 
 } // namespace

@@ -68,7 +68,7 @@ void expect_equal(const Texels& found, const Texels& expected) {
 }
 
 struct Everything { // as many texels as records.comp puts
-    std::array<glm::uvec4, 54> texels;
+    std::array<glm::uvec4, 56> texels;
 };
 
 Kernel make_kernel() {
@@ -104,8 +104,10 @@ TEST_F(Layout, EveryFieldOfEverySceneRecordArrives) {
                     texel(medium.sigma_a, medium.g),
                     texel(medium.sigma_s, 0u),
                     texel(medium.emission, 0u),
-                    {shape.flags, shape.medium_inside, shape.medium_outside, 0},
-                    texel(shape.reflectance, 0u),
+                    {shape.flags, shape.medium_inside, shape.medium_outside, shape.queue},
+                    texel(shape.reflectance, shape.alpha),
+                    texel(shape.eta, 0u),
+                    texel(shape.k, 0u),
                     texel(primitive.a, primitive.kind_and_shape),
                     texel(primitive.b, primitive.light),
                     texel(primitive.c, primitive.extra),
@@ -131,7 +133,7 @@ TEST_F(Layout, EveryFieldOfEverySceneRecordArrives) {
     // The control: a record that lies one texel further on is noticed.
     tables.texels.insert(tables.texels.begin() + push.lights, glm::vec4(0));
     const Everything shifted = kernel.run<Everything>({}, tables.texels, 1)[0];
-    EXPECT_NE(shifted.texels[31], expected[31]) << "no teeth";
+    EXPECT_NE(shifted.texels[33], expected[33]) << "no teeth";
 }
 
 TEST_F(Layout, EveryPushConstantArrives) {

@@ -42,8 +42,10 @@ void put_surfaces() {
     put(m.sigma_s, 0u);
     put(m.emission, 0u);
     const ShapeRecord s = load_shape(1u);
-    put(uvec4(s.flags, s.medium_inside, s.medium_outside, 0u));
-    put(s.reflectance, 0u);
+    put(uvec4(s.flags, s.medium_inside, s.medium_outside, s.queue));
+    put(s.reflectance, s.alpha);
+    put(s.eta, 0u);
+    put(s.k, 0u);
     const PrimitiveRecord p = load_primitive(1u);
     put(p.a, p.kind_and_shape);
     put(p.b, p.light);
