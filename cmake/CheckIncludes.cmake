@@ -27,6 +27,7 @@ set(rules
 set(libraries
   "volk.h vulkan/ | src/gpu"
   "OpenImageIO/   | src/image"
+  "openvdb/ nanovdb/ | src/volume"
   "embree         | src/render src/reference"
   "openvdb nanovdb/ | src/volume"
   "CLI/           | src/cli"
