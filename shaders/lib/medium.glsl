@@ -19,7 +19,8 @@ struct Medium {
     vec3 sigma_a;
     vec3 sigma_s;
     vec3 emission;
-    float g;
+    float phase_parameter;
+    uint phase;
     uint density_kind;
     uint density_record;
 };

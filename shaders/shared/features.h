@@ -37,6 +37,12 @@ TYNDALL_CONSTANT uint DENSITY_BIT_PLANE = 4u;
 TYNDALL_CONSTANT uint DENSITY_BIT_SPHERE = 8u;
 TYNDALL_CONSTANT uint DENSITY_BITS_TRACKED = 10u; // flights by tracking
 
+// By the kind of a phase function (phase_records.h).
+TYNDALL_CONSTANT uint PHASE_BIT_HENYEY_GREENSTEIN = 1u;
+TYNDALL_CONSTANT uint PHASE_BIT_SCHLICK = 2u;
+TYNDALL_CONSTANT uint PHASE_BIT_RAYLEIGH = 4u;
+TYNDALL_CONSTANT uint PHASE_BIT_TABLE = 8u;
+
 TYNDALL_CONSTANT uint FILTER_BOX = 0u;
 TYNDALL_CONSTANT uint FILTER_TRIANGLE = 1u;
 TYNDALL_CONSTANT uint FILTER_TABLE = 2u;
@@ -53,7 +59,7 @@ TYNDALL_SHARED_END
     X(6, has_media, 1)            /* any medium at all */                                          \
     X(7, has_scattering, 1)       /* some medium scatters */                                       \
     X(8, has_emission, 1)         /* some medium emits */                                          \
-    X(9, is_anisotropic, 1)       /* some phase function has g != 0 */                             \
+    X(9, phases, 15)              /* PHASE_BIT_* kinds that occur; 0: all scatter isotropically */ \
     X(10, is_chromatic, 1)        /* some medium differs between channels */                       \
     X(11, is_grey, 0)             /* nothing at all differs between channels */                    \
     X(12, has_interfaces, 1)      /* some surface is a mere boundary between media */              \
@@ -71,7 +77,9 @@ TYNDALL_SHARED_END
     X(24, voxels_are_half, 0)     /* voxels are 16-bit floats */                                   \
     X(25, is_rough, 1)       /* this stage's surfaces are rough; set by stage, not by scene */     \
     X(26, has_thin_panes, 1) /* some smooth dielectric is a thin pane */                           \
-    X(27, has_dispersion, 1) /* some index of refraction differs between channels */
+    X(27, has_dispersion, 1) /* some index of refraction differs between channels */               \
+    X(28, has_mixtures, 1)   /* some medium has more than one phase function */                    \
+    X(29, has_chromatic_phases, 1) /* some phase function differs between channels */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

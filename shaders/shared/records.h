@@ -76,15 +76,15 @@ TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
 /// A medium. Coefficients per scene unit.
 struct MediumRecord {
     vec3 sigma_a;
-    float g;
+    float phase_parameter; ///< Of a single phase function with one: g or k.
     vec3 sigma_s;
-    float pad0;
+    uint phase;    ///< PHASE_* and a texel (phase_records.h).
     vec3 emission; ///< Le; the source term is sigma_a Le.
-    float pad1;
+    float pad0;
     uint density_kind;   ///< DENSITY_* (volume_records.h): what scales sigma_a and sigma_s.
     uint density_record; ///< Texel of the record of that kind.
+    uint pad1;
     uint pad2;
-    uint pad3;
 };
 TYNDALL_CONSTANT uint MEDIUM_TEXELS = 4u;
 

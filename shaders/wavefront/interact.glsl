@@ -2,9 +2,9 @@
 #ifndef TYNDALL_INTERACT_GLSL
 #define TYNDALL_INTERACT_GLSL
 
-#include "lib/phase.glsl"
 #include "wavefront/light_sampling.glsl"
 #include "wavefront/path.glsl"
+#include "wavefront/phases.glsl"
 #include "wavefront/region.glsl"
 #include "wavefront/volume.glsl"
 
@@ -72,17 +72,27 @@ void roulette(inout Path p, uint word) {
 /// in between.
 LightSample light_in_medium(Path p, Medium medium) {
     LightSample light = sample_light(p, p.origin, draw(p, BLOCK_LIGHT));
-    const float pdf = evaluate_phase(medium.g, p.direction, light.direction);
+    const vec3 value = evaluate_phase(medium, p.direction, light.direction);
+    const float pdf = phase_density(value, p.r);
     const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
-    light.radiance *= p.throughput * (pdf * mis);
+    light.radiance *= p.throughput * (value * mis);
     return light;
 }
 
-/// Scatters a path that collided at its origin. The phase function is sampled exactly: no weight.
+/// Scatters a path that collided at its origin. The phase function of the hero is sampled exactly:
+/// no weight, but for what tells channels apart (lib/medium.glsl).
 void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
     const vec3 incoming = p.direction;
-    p.direction = sample_phase(medium.g, incoming, unit_float(words.y), unit_float(words.z));
-    if (paths_find_lights()) p.pdf = evaluate_phase(medium.g, incoming, p.direction);
+    p.direction = sample_phase(medium, p.hero, incoming, unit_float(words.y), unit_float(words.z));
+    if (paths_find_lights() || has_chromatic_phases != 0u) {
+        const vec3 value = evaluate_phase(medium, incoming, p.direction);
+        p.pdf = phase_density(value, p.r);
+        // A delta has no density, and no colour.
+        if (has_chromatic_phases != 0u && p.pdf > 0.0) {
+            p.throughput *= value / p.pdf;
+            p.r *= value / p.pdf;
+        }
+    }
     roulette(p, words.w);
 }
 

@@ -45,8 +45,10 @@ Medium load_medium(uint index) {
     const uvec4 a = fetch_scene(texel);
     Medium medium;
     medium.sigma_a = colour(floats(a));
-    medium.g = uintBitsToFloat(a.w);
-    medium.sigma_s = colour(floats(fetch_scene(texel + 1u)));
+    medium.phase_parameter = uintBitsToFloat(a.w);
+    const uvec4 b = fetch_scene(texel + 1u);
+    medium.sigma_s = colour(floats(b));
+    medium.phase = b.w;
     medium.emission = has_emission != 0u ? colour(floats(fetch_scene(texel + 2u))) : vec3(0);
     medium.density_kind = medium.density_record = 0u;
     if (densities != 0u) {

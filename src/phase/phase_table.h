@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace tyndall {
@@ -20,6 +21,17 @@ struct PhaseTable {
     /// ... 1.
     std::array<std::vector<double>, 3> cdf;
     std::array<double, 3> mean_cosine{}; ///< Of the interpolant.
+
+    /// The channels differ.
+    bool is_chromatic() const { return value[0] != value[1] || value[0] != value[2]; }
 };
+
+/// Angle of node i of n [radians].
+double phase_table_angle(std::size_t i, std::size_t n);
+
+/// The table of functions given up to a factor.
+/// @param value  by channel, at the nodes: at least two each, the same number; >= 0, finite, not
+/// all 0.
+PhaseTable make_phase_table(std::array<std::vector<double>, 3> value);
 
 } // namespace tyndall

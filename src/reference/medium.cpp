@@ -1,5 +1,6 @@
 #include "reference/medium.h"
 
+#include "reference/phase.h"
 #include "reference/quadrature.h"
 
 #include <algorithm>
@@ -47,7 +48,8 @@ bool has_channel_grids(const Medium& medium) {
 }
 
 bool is_grey(const Medium& medium) {
-    return !has_channel_grids(medium) && all_equal(medium.sigma_a) && all_equal(medium.sigma_s);
+    return !has_channel_grids(medium) && all_equal(medium.sigma_a) && all_equal(medium.sigma_s) &&
+           !is_chromatic(medium.phases);
 }
 
 bool is_scattering(const Medium& medium) {
@@ -113,6 +115,19 @@ Throughput disperse(const Throughput& before) {
     Throughput after{Rgb(0), Rgb(0), hero};
     after.beta[hero] = before.beta[hero] * 3 / before.ratio[hero];
     after.ratio[hero] = 3;
+    return after;
+}
+
+double mean_density(const Rgb& value, const Throughput& throughput) {
+    return all_equal(value) ? value.x : mean(throughput.ratio * value);
+}
+
+Throughput after_scattering(const Rgb& value, const Throughput& before) {
+    if (all_equal(value)) return before; // exactly
+    const Rgb factor = value / mean_density(value, before);
+    Throughput after = before;
+    after.beta *= factor;
+    after.ratio *= factor;
     return after;
 }
 

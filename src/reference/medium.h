@@ -21,7 +21,7 @@ struct Throughput {
 /// The medium has coefficients of its own for each voxel and channel (rgbgrid).
 bool has_channel_grids(const Medium& medium);
 
-/// Channels are alike in sigma_a and in sigma_s: the hero does not matter.
+/// Channels are alike in sigma_a, sigma_s and phase function: the hero does not matter.
 bool is_grey(const Medium& medium);
 bool is_scattering(const Medium& medium);
 
@@ -56,6 +56,13 @@ Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Thro
 /// The throughput of a path that goes on in its hero channel alone: a fair sample of that channel,
 /// as the path has this hero with the probability ratio / 3.
 Throughput disperse(const Throughput& before);
+
+/// The density with which scattering draws a direction, whichever channel is the hero.
+/// @param value  of the phase function in that direction, which is the density for each hero.
+double mean_density(const Rgb& value, const Throughput& throughput);
+
+/// The throughput after a direction was drawn from the phase function of the hero.
+Throughput after_scattering(const Rgb& value, const Throughput& before);
 
 /// exp(-(sigma_a + sigma_s) distance) for each channel; distance may be infinite.
 Rgb transmittance(const Medium& medium, double distance);

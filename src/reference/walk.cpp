@@ -22,9 +22,10 @@ double mis_weight(double density, double other_density) {
     return 1 / (1 + ratio * ratio);
 }
 
-Response respond(const PhaseFunction& phase, const dvec3& travel, const dvec3& to_light) {
-    const double density = evaluate_phase(phase, one_minus_cosine(travel, to_light));
-    return {Rgb(density), density};
+Response respond(const std::vector<PhaseFunction>& phases, const Throughput& throughput,
+                 const dvec3& travel, const dvec3& to_light) {
+    const Rgb value = evaluate_phase(phases, one_minus_cosine(travel, to_light));
+    return {value, mean_density(value, throughput)};
 }
 
 } // namespace
@@ -158,18 +159,22 @@ class PathTracer::Walk {
         if (depth_ == tracer_.scene_.integrator.max_depth) return false;
         ++depth_;
         at_.ray.origin += distance * at_.ray.direction;
-        const PhaseFunction& phase = medium.phases.front();
+        const std::vector<PhaseFunction>& phases = medium.phases;
         const dvec3 travel = at_.ray.direction;
-        const ScatteringAngle angle = sample_angle(phase, unit(words_.y));
+        const ScatteringAngle angle = sample_angle(phases, unit(words_.y), throughput_.hero);
         vertex_.reset();
-        if (!is_delta(phase)) {
+        if (!is_delta(phases)) {
             sample_light(
                 at_.ray.origin,
-                [&](const dvec3& to_light) { return respond(phase, travel, to_light); },
+                [&](const dvec3& to_light) {
+                    return respond(phases, throughput_, travel, to_light);
+                },
                 [&](const dvec3& to_light) {
                     return Start{{at_.ray.origin, to_light}, at_.in};
                 });
-            vertex_ = {at_.ray.origin, evaluate_phase(phase, angle.one_minus_cosine)};
+            const Rgb value = evaluate_phase(phases, angle.one_minus_cosine);
+            vertex_ = {at_.ray.origin, mean_density(value, throughput_)};
+            throughput_ = after_scattering(value, throughput_);
         }
         at_.ray.direction = direction_around(travel, angle.sine, angle.cosine, unit(words_.z));
         return survive();

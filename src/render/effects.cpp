@@ -1,5 +1,6 @@
 #include "render/effects.h"
 
+#include "render/phase_tables.h"
 #include "scene/emitting_voxels.h"
 #include "shared/records.h"
 
@@ -48,6 +49,8 @@ class Collector {
     void collect_material(const Material& material);
     void collect_geometry();
     void collect_density(const Medium& medium, const std::string& by);
+    void collect_phases(const Medium& medium, const std::string& by);
+    void tell_phases();
     void collect_media();
     void collect_lights();
     void collect_camera();
@@ -55,7 +58,8 @@ class Collector {
 
     const Scene& scene_;
     Effects effects_;
-    std::string dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
+    bool has_isotropic_phases_ = false;
+    std::string phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
 };
 
 std::string place(const char* what, const SourceLocation& where) {
@@ -129,13 +133,43 @@ void Collector::collect_density(const Medium& medium, const std::string& by) {
     }
 }
 
+/// What the phase functions of a medium that scatters call for.
+void Collector::collect_phases(const Medium& medium, const std::string& by) {
+    shared::Features& f = effects_.features;
+    for (const PhaseFunction& phase : medium.phases) {
+        if (phase.kind == PhaseFunction::Kind::henyey_greenstein && phase.g == 0)
+            has_isotropic_phases_ = true;
+        else
+            f.phases |= 1u << phase_kind(phase.kind), phases_by_ = by;
+    }
+    if (medium.phases.size() > 1) f.has_mixtures = 1, phases_by_ = by;
+    if (is_chromatic(medium.phases)) f.has_chromatic_phases = 1;
+}
+
+void Collector::tell_phases() {
+    shared::Features& f = effects_.features;
+    // Isotropic scattering beside other kinds is a Henyey-Greenstein function with g = 0.
+    if (has_isotropic_phases_ && (f.phases || f.has_mixtures))
+        f.phases |= PHASE_BIT_HENYEY_GREENSTEIN;
+    constexpr std::array<const char*, 4> names{"Henyey-Greenstein", "Schlick", "Rayleigh",
+                                               "Lorenz-Mie"};
+    std::string value;
+    for (std::size_t kind = 0; kind < names.size(); ++kind)
+        if (f.phases >> kind & 1u) value += (value.empty() ? "" : ", ") + std::string(names[kind]);
+    if (value.empty()) value = f.has_scattering ? "isotropic" : "no";
+    add_value("phase functions", value, phases_by_);
+    add("mixtures of phases", f.has_mixtures, phases_by_);
+    add("chromatic phases", f.has_chromatic_phases, phases_by_);
+}
+
 void Collector::collect_media() {
     shared::Features& f = effects_.features;
     f.densities = f.has_rgb_grids = f.has_temperature = 0;
-    f.has_media = f.has_scattering = f.has_emission = f.is_anisotropic = 0;
+    f.has_media = f.has_scattering = f.has_emission = 0;
+    f.phases = f.has_mixtures = f.has_chromatic_phases = 0;
     f.is_chromatic =
         f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
-    std::string media_by, scattering_by, emission_by, anisotropic_by, chromatic_by = dispersion_by_;
+    std::string media_by, scattering_by, emission_by, chromatic_by = dispersion_by_;
     std::vector<bool> used(scene_.media.size(), false);
     const auto use = [&](int medium) {
         if (medium >= 0) used[medium] = true;
@@ -154,8 +188,9 @@ void Collector::collect_media() {
         f.has_media = 1, media_by = by;
         if (!is_black(m.sigma_s)) {
             f.has_scattering = 1, scattering_by = by;
-            if (m.phases.front().g != 0) f.is_anisotropic = 1, anisotropic_by = by;
-            if (!is_grey(m.sigma_s)) f.is_chromatic = 1, chromatic_by = by;
+            collect_phases(m, by);
+            if (!is_grey(m.sigma_s) || is_chromatic(m.phases))
+                f.is_chromatic = 1, chromatic_by = by;
         }
         if (!is_black(m.emission) && !is_black(m.sigma_a)) f.has_emission = 1, emission_by = by;
         collect_density(m, by);
@@ -164,7 +199,7 @@ void Collector::collect_media() {
     add("media", f.has_media, media_by);
     add("scattering", f.has_scattering, scattering_by);
     add("emission of media", f.has_emission, emission_by);
-    add("anisotropic phase", f.is_anisotropic, anisotropic_by);
+    tell_phases();
     add("spectral MIS", f.is_chromatic, chromatic_by);
     add("grids", f.densities & DENSITY_BIT_GRID, grid_by_);
     add("black body emission", f.has_temperature, temperature_by_);
@@ -205,7 +240,8 @@ bool Collector::is_all_grey() const {
     bool grey = is_grey(effects_.environment);
     for (const Medium& m : scene_.media)
         grey = grey && is_grey(m.sigma_a) && is_grey(m.sigma_s) && is_grey(m.emission);
-    grey = grey && !effects_.features.has_rgb_grids && !effects_.features.has_temperature;
+    const shared::Features& f = effects_.features;
+    grey = grey && !f.has_rgb_grids && !f.has_temperature && !f.has_chromatic_phases;
     for (const Material& m : scene_.materials)
         grey = grey && is_grey(m.reflectance) && is_grey(m.eta) && is_grey(m.k);
     for (const AreaLight& a : scene_.area_lights)

@@ -53,7 +53,8 @@ bool are_all_half(const Scene& scene) {
 } // namespace
 
 VolumePacker::VolumePacker(const Scene& scene, const glm::dmat4& render_from_world, Append append)
-    : scene_(scene), render_from_world_(render_from_world), append_(std::move(append)) {
+    : scene_(scene), render_from_world_(render_from_world), append_(std::move(append)),
+      phases_(append_) {
     voxels_.is_half = are_all_half(scene);
     for (const Medium& medium : scene.media)
         is_uniform_ = is_uniform_ && medium.is_homogeneous();
@@ -77,9 +78,11 @@ void VolumePacker::append_media(const glm::dmat4& world_from_definition) {
 
 MediumRecord VolumePacker::make_record(const Medium& medium,
                                        const glm::dmat4& world_from_definition) {
+    const PhaseWords phase = phases_.pack(medium.phases);
     MediumRecord record{.sigma_a = medium.sigma_a,
-                        .g = static_cast<float>(medium.phases.front().g),
+                        .phase_parameter = phase.parameter,
                         .sigma_s = medium.sigma_s,
+                        .phase = phase.phase,
                         .emission = medium.emission};
     const glm::dmat4 render_from_medium =
         render_from_world_ * world_from_definition * medium.world_from_medium;

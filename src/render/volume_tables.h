@@ -1,10 +1,10 @@
 /// Media as the device reads them: records, brick tables, majorants and voxels.
 #pragma once
 
+#include "render/phase_tables.h"
 #include "scene/scene.h"
 #include "shared/volume_records.h"
 
-#include <functional>
 #include <map>
 #include <vector>
 
@@ -19,7 +19,7 @@ struct VoxelData {
 /// Packs media. Tables are handed to `append`, which returns the texel at which they start.
 class VolumePacker {
   public:
-    using Append = std::function<std::uint32_t(const std::vector<glm::uvec4>&, const char*)>;
+    using Append = AppendTable;
     VolumePacker(const Scene& scene, const glm::dmat4& render_from_world, Append append);
 
     /// Records of all media, followed by copies for instances: see medium_shift.
@@ -51,6 +51,7 @@ class VolumePacker {
     const Scene& scene_;
     glm::dmat4 render_from_world_;
     Append append_;
+    PhasePacker phases_;
     bool is_uniform_ = true; ///< No medium varies in space.
     VoxelData voxels_;
     std::uint32_t brick_count_ = 0;

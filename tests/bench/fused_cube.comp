@@ -63,7 +63,8 @@ void main() {
             continue;
         }
         origin += s * direction;
-        direction = sample_phase(G, direction, unit_float(words.y), unit_float(words.z));
+        const vec2 complements = sample_hg_complements(G, unit_float(words.y));
+        direction = deflect_by(direction, complements, unit_float(words.z));
         if (throughput < 1.0 / 16.0) {
             alive = unit_float(words.w) >= 0.5;
             throughput *= 2.0;

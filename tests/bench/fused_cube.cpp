@@ -12,7 +12,6 @@ constexpr gpu::Buffer::Options kTexels{.texels = true};
 shared::Features features() {
     shared::Features f;
     f.workgroup_size = 64;
-    f.is_anisotropic = 1;
     return f;
 }
 

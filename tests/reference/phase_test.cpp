@@ -11,7 +11,7 @@ namespace tyndall::reference {
 namespace {
 
 PhaseFunction hg(double g) {
-    return {PhaseFunction::Kind::henyey_greenstein, g};
+    return {.kind = PhaseFunction::Kind::henyey_greenstein, .g = g};
 }
 
 struct Known {
@@ -53,17 +53,17 @@ TEST(HenyeyGreenstein, EndsAreExact) {
 }
 
 TEST(HenyeyGreenstein, PeaksMatchTheirClosedForms) {
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.5), 0), 6, 1e-13);
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.9), 0), 190, 1e-10);
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.99), 0), 19900, 1e-6);
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.9), 2), 0.0277008, 1e-7);
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(-0.5), 2), 6, 1e-13);
-    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0), 1.3), 1, 1e-15);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.5), 0).x, 6, 1e-13);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.9), 0).x, 190, 1e-10);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.99), 0).x, 19900, 1e-6);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0.9), 2).x, 0.0277008, 1e-7);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(-0.5), 2).x, 6, 1e-13);
+    EXPECT_NEAR(4 * pi * evaluate_phase(hg(0), 1.3).x, 1, 1e-15);
 }
 
 TEST(HenyeyGreenstein, IntegratesToOneWithMeanCosineG) {
     for (double g : {-0.99, -0.5, 0.0, 0.3, 0.9, 0.99}) {
-        const auto density = [&](double om) { return 2 * pi * evaluate_phase(hg(g), om); };
+        const auto density = [&](double om) { return 2 * pi * evaluate_phase(hg(g), om).x; };
         EXPECT_NEAR(integrate(density, 0, 2), 1, 1e-10);
         const auto one_plus_cosine = [&](double om) { return density(om) * (2 - om); };
         EXPECT_NEAR(integrate(one_plus_cosine, 0, 2), 1 + g, 1e-10);
@@ -86,7 +86,7 @@ TEST(HenyeyGreenstein, DirectionsFollowTheDensity) {
             EXPECT_NEAR(cosine, angle.cosine, 1e-14);
             // Equal probability bins: the CDF of the cosine is the sampled number.
             const double quantile = integrate16(
-                [&](double om) { return 2 * pi * evaluate_phase(hg(g), om); }, 1 - cosine, 2);
+                [&](double om) { return 2 * pi * evaluate_phase(hg(g), om).x; }, 1 - cosine, 2);
             if (std::abs(g) < 0.7)
                 ++counts[static_cast<std::size_t>(std::min(bins - 1.0, quantile * bins))];
             sum += cosine;

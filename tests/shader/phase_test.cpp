@@ -271,7 +271,7 @@ TEST_F(Phase, ForwardMeansForward) {
 /// With g = 0 everywhere the pipeline holds the isotropic phase function alone.
 TEST_F(Phase, IsotropicPipelinesAreIsotropic) {
     shared::Features features;
-    features.is_anisotropic = 0;
+    features.phases = 0;
     const auto found = scatter(0.5f, {0, 0, 1}, 1u << 20, features); // g is not looked at
     EXPECT_GT(chi_squared_p(found, {0, 0, 1}, 0), stats::normal_two_sided(support::pass));
     EXPECT_LT(chi_squared_p(found, {0, 0, 1}, 0.02), 1e-9) << "no teeth";

@@ -38,8 +38,8 @@ void put_camera() {
 
 void put_surfaces() {
     const Medium m = load_medium(1u);
-    put(m.sigma_a, m.g);
-    put(m.sigma_s, 0u);
+    put(m.sigma_a, m.phase_parameter);
+    put(m.sigma_s, m.phase);
     put(m.emission, 0u);
     const ShapeRecord s = load_shape(1u);
     put(uvec4(s.flags, s.medium_inside, s.medium_outside, s.queue));
