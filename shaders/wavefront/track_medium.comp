@@ -12,8 +12,9 @@
 /// Weight of a tentative collision that was taken for real or null, over the density of that
 /// choice, and the spectral ratios after it (lib/medium.glsl).
 void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, bool is_real) {
-    const vec3 f = is_real ? scattered : 1.0 - scattered - absorbed;
-    const vec3 density = is_real ? scattered : 1.0 - scattered;
+    // Where the majorant is the extinction, rounding may take the shares beyond 1.
+    const vec3 f = is_real ? scattered : max(1.0 - scattered - absorbed, vec3(0));
+    const vec3 density = is_real ? scattered : max(1.0 - scattered, vec3(0));
     const float m = is_chromatic != 0u ? mean(p.r * density) : density.x;
     p.throughput *= f / m;
     if (is_chromatic != 0u) p.r *= density / m;

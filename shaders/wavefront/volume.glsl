@@ -215,7 +215,8 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
         collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
-            result *= 1.0 - (tap.sigma_a + tap.sigma_s) / bound;
+            // Where the bound is the extinction, rounding may take the quotient beyond 1.
+            result *= max(1.0 - (tap.sigma_a + tap.sigma_s) / bound, vec3(0));
             collides = max(result.x, max(result.y, result.z)) > 0.0 && t < f.t_end;
         }
     } while (collides);
