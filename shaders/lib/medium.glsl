@@ -24,6 +24,10 @@ struct Medium {
     uint density_record;
 };
 
+bool is_black(vec3 c) {
+    return max(c.x, max(c.y, c.z)) <= 0.0;
+}
+
 float mean(vec3 v) {
     return (v.x + v.y + v.z) * (1.0 / 3.0);
 }

@@ -29,6 +29,7 @@ TYNDALL_CONSTANT uint LIGHTS_DISTANT = 1u;
 TYNDALL_CONSTANT uint LIGHTS_POINT = 2u;
 TYNDALL_CONSTANT uint LIGHTS_SPOT = 4u;
 TYNDALL_CONSTANT uint LIGHTS_AREA = 8u;
+TYNDALL_CONSTANT uint LIGHTS_VOXELS = 16u;
 
 // By the kind of a medium's density (volume_records.h).
 TYNDALL_CONSTANT uint DENSITY_BIT_GRID = 2u;
@@ -47,7 +48,7 @@ TYNDALL_SHARED_END
     X(1, storage_fallback, 0)     /* bit n: texel buffer n is too large, read its storage twin */  \
     X(2, geometry, 3)             /* GEOMETRY_* */                                                 \
     X(3, primitives, 255)         /* PRIMITIVE_* bits that occur */                                \
-    X(4, lights, 15)              /* LIGHTS_* bits that light sampling has to deal with */         \
+    X(4, lights, 31)              /* LIGHTS_* bits that light sampling has to deal with */         \
     X(5, filter_kind, 2)          /* FILTER_* */                                                   \
     X(6, has_media, 1)            /* any medium at all */                                          \
     X(7, has_scattering, 1)       /* some medium scatters */                                       \

@@ -19,6 +19,10 @@
 // of its own: BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A
 // real one is scattered in the next event, whose word 0 is not used.
 //
+// A voxel that shines, chosen as a light, uses block BLOCK_EMISSION: 0: choice of voxel, its
+// fraction being the low eight bits of words 1, 2, 3, whose upper 24 bits are the place around the
+// voxel on each axis.
+//
 // Flight i of a shadow ray through such media, counted over the whole ray, uses block BLOCK_SHADOW
 // + i of the event that cast it: 0: optical distance, 1: corner. A flight that leaves its medium
 // without a collision counts, too: what it has told of its optical distance must not decide about
@@ -33,6 +37,7 @@ TYNDALL_SHARED_BEGIN
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;
 TYNDALL_CONSTANT uint BLOCK_SHADOW = 2u;
+TYNDALL_CONSTANT uint BLOCK_EMISSION = 0x80000000u;
 
 // Seven rounds is the fewest that pass BigCrush with no failure (Salmon et al. 2011, "Parallel
 // Random Numbers: As Easy as 1, 2, 3", table 2); the known answers of the paper are for ten.

@@ -40,6 +40,7 @@ TYNDALL_CONSTANT uint LIGHT_POINT = 1u;
 TYNDALL_CONSTANT uint LIGHT_SPOT = 2u;
 TYNDALL_CONSTANT uint LIGHT_AREA = 3u;
 TYNDALL_CONSTANT uint LIGHT_AREA_TWO_SIDED = 4u;
+TYNDALL_CONSTANT uint LIGHT_VOXELS = 5u; // VoxelLightRecord
 
 // Children of a NodeRecord: inner nodes by index; leaves as LEAF | (count - 1) << 24 | first
 // primitive.
@@ -172,12 +173,12 @@ TYNDALL_CONSTANT uint NODE_TEXELS = 4u;
 
 /// A light that light sampling chooses.
 struct LightRecord {
-    vec3 position;          ///< point, spot; direction of travel for distant
-    uint kind;              ///< LIGHT_*
-    vec3 radiance;          ///< area: radiance; point, spot: intensity; distant: irradiance
-    float probability;      ///< That it is chosen.
-    vec3 axis;              ///< spot
-    uint primitive;         ///< area: index into the primitives
+    vec3 position;     ///< point, spot; direction of travel for distant
+    uint kind;         ///< LIGHT_*
+    vec3 radiance;     ///< area: radiance; point, spot: intensity; distant: irradiance
+    float probability; ///< That it is chosen.
+    vec3 axis;         ///< spot
+    uint primitive;    ///< area: index into the primitives; voxels: texel of the VoxelLightRecord
     float complement_start; ///< spot: 1 - cos of the angle up to which it is at full intensity,
     float complement_width; ///< and of that from which there is none.
     float pad0;

@@ -37,11 +37,34 @@ struct GridRecord {
     uvec3 sigma_a; ///< rgbgrid: coefficients by channel, in place of density * sigma; else NONE.
     uint emission_scale;
     uvec3 sigma_s;
-    uint pad0;
+    float light_density; ///< Choice of this grid as a light, over VoxelLightRecord::total; 0: is
+                         ///< none.
     uvec3 emission;
     uint pad1;
 };
 TYNDALL_CONSTANT uint GRID_TEXELS = 10u;
+TYNDALL_CONSTANT uint GRID_LIGHT_DENSITY = 8u; // texel of light_density, its last word
+
+/// A grid that emits, as a light. Its voxels are chosen in proportion to their emission.
+struct VoxelLightRecord {
+    AffineRecord render_from_index;
+    ivec3 lower; ///< The voxel that EmittingVoxelRecord counts from.
+    uint medium;
+    uint voxels; ///< Texel of the first EmittingVoxelRecord.
+    uint count;
+    float total; ///< Mean over the channels of sigma_a Le, integrated over the volume.
+    uint pad0;
+};
+TYNDALL_CONSTANT uint VOXEL_LIGHT_TEXELS = 5u;
+
+/// One cell of the alias table of voxels, one texel.
+struct EmittingVoxelRecord {
+    uint xy; ///< x | y << 16
+    uint z;
+    float threshold; ///< Keep this voxel if the fraction of the draw is below, else take that of
+                     ///< the cell ...
+    uint alias;      ///< ... here.
+};
 
 /// Density exp(-h / scale_height), h above a plane or a sphere.
 struct ExponentialRecord {

@@ -36,6 +36,11 @@ void travel(inout Path p, Medium medium, float t, bool collided) {
     pass_segment(medium, p.hero, column, collided, p.throughput, p.r);
 }
 
+/// Whether paths run into what light sampling chooses as well, and are weighed against it.
+bool paths_find_lights() {
+    return (lights & (LIGHTS_AREA | LIGHTS_VOXELS)) != 0u;
+}
+
 /// The queue of paths that stand at the primitive; of those that escape if it is NONE.
 uint queue_of_surface(uint primitive) {
     if (primitive == NONE) return QUEUE_ENDED;
@@ -66,7 +71,7 @@ void roulette(inout Path p, uint word) {
 /// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is
 /// in between.
 LightSample light_in_medium(Path p, Medium medium) {
-    LightSample light = sample_light(p.origin, draw(p, BLOCK_LIGHT));
+    LightSample light = sample_light(p, p.origin, draw(p, BLOCK_LIGHT));
     const float pdf = evaluate_phase(medium.g, p.direction, light.direction);
     const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
     light.radiance *= p.throughput * (pdf * mis);
@@ -77,12 +82,8 @@ LightSample light_in_medium(Path p, Medium medium) {
 void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
     const vec3 incoming = p.direction;
     p.direction = sample_phase(medium.g, incoming, unit_float(words.y), unit_float(words.z));
-    if ((lights & LIGHTS_AREA) != 0u) p.pdf = evaluate_phase(medium.g, incoming, p.direction);
+    if (paths_find_lights()) p.pdf = evaluate_phase(medium.g, incoming, p.direction);
     roulette(p, words.w);
-}
-
-bool is_black(vec3 c) {
-    return max(c.x, max(c.y, c.z)) <= 0.0;
 }
 
 /// Leaves a shadow ray from `origin` to trace_shadow.
@@ -96,11 +97,11 @@ void cast_shadow_ray(uint slot, vec3 origin, uint medium, LightSample light) {
 
 /// Distance since the last scattering, where crossing interfaces does not reset it.
 float distance_travelled(uint slot, float t) {
-    if (has_interfaces == 0u || has_emitters == 0u) return t;
+    if (has_interfaces == 0u || !paths_find_lights()) return t;
     return t + uintBitsToFloat(load_path(PATH_HIT, slot).w);
 }
 void set_distance_before(uint slot, float before) {
-    if (has_interfaces != 0u && has_emitters != 0u)
+    if (has_interfaces != 0u && paths_find_lights())
         store_path(PATH_HIT, slot, uvec4(0u, 0u, 0u, floatBitsToUint(before)));
 }
 

@@ -4,6 +4,10 @@
 
 #include "lib/light.glsl"
 #include "wavefront/geometry.glsl"
+#include "wavefront/volume.glsl"
+
+// In LightSample::target and beside primitives, which are fewer: the medium in which the light is.
+#define TARGET_MEDIUM 0x40000000u
 
 struct LightSample {
     vec3 direction; ///< Unit, towards the light.
@@ -11,7 +15,7 @@ struct LightSample {
     vec3 radiance; ///< What arrives if nothing is in between, divided by the density of the choice.
     float
         pdf; ///< Per steradian, choice of light included; 0: only light sampling finds this light.
-    uint target; ///< Primitive that the light is, or NONE.
+    uint target; ///< Primitive that the light is, TARGET_MEDIUM | medium, or NONE.
 };
 
 /// A uniform point of an emitter's surface: position, outward normal, density per area. For
@@ -157,8 +161,67 @@ void sample_area_light(LightRecord light, vec3 from, float u, float v, inout Lig
     s.target = light.primitive;
 }
 
-/// Draws a light and a direction to it from `from`. Radiance is 0 if it does not shine here.
-LightSample sample_light(vec3 from, uvec4 words) {
+VoxelLightRecord load_voxel_light(uint texel) {
+    VoxelLightRecord v;
+    v.render_from_index = load_affine(texel);
+    uvec4 t = fetch_scene(texel + 3u);
+    v.lower = ivec3(t.xyz);
+    v.medium = t.w;
+    t = fetch_scene(texel + 4u);
+    v.voxels = t.x;
+    v.count = t.y;
+    v.total = uintBitsToFloat(t.z);
+    return v;
+}
+
+/// Distributed as a tent over (-1, 1).
+float sample_tent(float u) {
+    return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u);
+}
+
+/// Density per steradian and collision with which light sampling finds emission `squared` away
+/// (squared distance), over that with which a path that goes there collides: emission and
+/// extinction of the voxel that was read, in the same unit. The extinction stands for the density
+/// of collisions along the way; MIS needs no more than that both techniques are weighed by the same
+/// function of vertex and voxel.
+float voxel_light_pdf(float light_density, vec3 emission, vec3 extinction, float squared) {
+    return light_density * mean(emission) * squared /
+           max(extinction.x, max(extinction.y, extinction.z));
+}
+
+/// Emission between voxels is trilinear in theirs: a voxel chosen by its emission, with an offset
+/// drawn from a tent on each axis, is a point chosen by the emission.
+void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSample s) {
+    const VoxelLightRecord v = load_voxel_light(light.primitive);
+    uint index, fraction;
+    umulExtended(words.x, v.count, index, fraction);
+    const uint low = (words.y & 255u) << 16 | (words.z & 255u) << 8 | (words.w & 255u);
+    uvec4 cell = fetch_scene(v.voxels + index);
+    if (float(low) * (1.0 / 16777216.0) >= uintBitsToFloat(cell.z))
+        cell = fetch_scene(v.voxels + cell.w);
+    const ivec3 voxel = v.lower + ivec3(cell.x & 0xFFFFu, cell.x >> 16, cell.y);
+    const vec3 at =
+        vec3(voxel) + vec3(sample_tent(unit_float(words.y)), sample_tent(unit_float(words.z)),
+                           sample_tent(unit_float(words.w)));
+    const Medium medium = load_medium(v.medium);
+    const GridRecord grid = load_grid(medium.density_record);
+    if (any(lessThan(at, grid.lower)) || any(greaterThan(at, grid.upper))) return;
+    const Tap tap = tap_grid(medium, grid, voxel);
+    const vec3 emission = tap.sigma_a * tap.emission;
+    if (is_black(emission)) return; // rounded away
+    const vec3 to = transform_point(v.render_from_index, at) - from;
+    const float squared = dot(to, to);
+    s.distance = sqrt(squared);
+    s.direction = to / s.distance;
+    s.radiance = emission * (v.total / (mean(emission) * light.probability * squared));
+    s.pdf =
+        voxel_light_pdf(light.probability / v.total, emission, tap.sigma_a + tap.sigma_s, squared);
+    s.target = TARGET_MEDIUM | v.medium;
+}
+
+/// Draws a light and a direction to it from `from`; `words` are those of BLOCK_LIGHT of the path's
+/// event. Radiance is 0 if it does not shine here.
+LightSample sample_light(Path p, vec3 from, uvec4 words) {
     uint index, fraction;
     umulExtended(words.x, push.light_count, index, fraction);
     const uvec4 cell = fetch_scene(push.alias_table + index);
@@ -166,7 +229,10 @@ LightSample sample_light(vec3 from, uvec4 words) {
     const LightRecord light = load_light(index);
 
     LightSample s = LightSample(vec3(0, 0, 1), INFINITY, vec3(0), 0.0, NONE);
-    if (lights == LIGHTS_AREA || ((lights & LIGHTS_AREA) != 0u && light.kind >= LIGHT_AREA)) {
+    if ((lights & LIGHTS_VOXELS) != 0u && light.kind == LIGHT_VOXELS) {
+        sample_voxel_light(light, from, draw(p, BLOCK_EMISSION), s);
+    } else if (lights == LIGHTS_AREA ||
+               ((lights & LIGHTS_AREA) != 0u && light.kind >= LIGHT_AREA)) {
         sample_area_light(light, from, unit_float(words.y), unit_float(words.z), s);
     } else if ((lights & LIGHTS_DISTANT) != 0u && light.kind == LIGHT_DISTANT) {
         s.direction = -light.position;

@@ -19,7 +19,7 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, u
     const mat3 frame = frame_towards(s, p.direction);
     const vec3 wo = towards_origin(frame, p.direction);
     if (lights != 0u) {
-        const LightSample light = sample_light(s.position, draw(p, BLOCK_LIGHT));
+        const LightSample light = sample_light(p, s.position, draw(p, BLOCK_LIGHT));
         float pdf;
         vec3 weight;
         evaluate_rough_conductor(shape.eta, shape.k, shape.alpha, wo, light.direction * frame, pdf,

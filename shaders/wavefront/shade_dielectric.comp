@@ -44,7 +44,7 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, f
     const Boundary boundary = make_boundary(eta, dot(p.direction, s.shading) <= 0.0);
     const uvec4 light_words = draw(p, BLOCK_LIGHT);
     if (lights != 0u) {
-        const LightSample light = sample_light(s.position, light_words);
+        const LightSample light = sample_light(p, s.position, light_words);
         float pdf, weight;
         evaluate_rough_dielectric(boundary, shape.alpha, wo, light.direction * frame, pdf, weight);
         shade_light(slot, p, s, shape, light, vec3(pdf * weight), pdf);

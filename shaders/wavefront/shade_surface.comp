@@ -11,7 +11,7 @@ void scatter(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, uvec4 w
     const mat3 frame = frame_towards(s, p.direction);
     p.throughput *= shape.reflectance;
     if (lights != 0u) {
-        const LightSample light = sample_light(s.position, draw(p, BLOCK_LIGHT));
+        const LightSample light = sample_light(p, s.position, draw(p, BLOCK_LIGHT));
         const float pdf = max(0.0, dot(light.direction, frame[2])) / PI;
         shade_light(slot, p, s, shape, light, vec3(pdf), pdf);
     }

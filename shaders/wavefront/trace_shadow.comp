@@ -26,6 +26,10 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
         if (has_media != 0u && medium != VACUUM)
             result *= medium_transmittance(medium, origin, direction, is_free ? distance : hit.t, p,
                                            step);
+        // A voxel shines only where its medium is.
+        if (is_free && (lights & LIGHTS_VOXELS) != 0u && target >> 30 == 1u &&
+            medium != (target & 0xFFFFu))
+            return vec3(0);
         if (is_free || is_black(result)) return result;
         const SurfacePoint s = surface_point(origin, direction, hit);
         medium = medium_beyond(shape, s, direction, medium);

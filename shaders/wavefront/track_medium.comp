@@ -12,12 +12,19 @@
 /// Weight of a tentative collision that was taken for real or null, over the density of that
 /// choice, and the spectral ratios after it (lib/medium.glsl).
 void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, bool is_real) {
-    // Where the majorant is the extinction, rounding may take the shares beyond 1.
-    const vec3 f = is_real ? scattered : max(1.0 - scattered - absorbed, vec3(0));
-    const vec3 density = is_real ? scattered : max(1.0 - scattered, vec3(0));
+    // Where the majorant is tight, rounding must not make a weight negative.
+    const vec3 f = is_real ? scattered : max(1.0 - scattered - absorbed, 0.0);
+    const vec3 density = is_real ? scattered : max(1.0 - scattered, 0.0);
     const float m = is_chromatic != 0u ? mean(p.r * density) : density.x;
     p.throughput *= f / m;
     if (is_chromatic != 0u) p.r *= density / m;
+}
+
+/// MIS weight of emission that a path comes upon `distance` after its last vertex.
+float emission_weight(Path p, Field f, vec3 emission, vec3 extinction, float distance) {
+    if ((lights & LIGHTS_VOXELS) == 0u || p.pdf == 0.0 || is_black(emission)) return 1.0;
+    return power_heuristic(
+        p.pdf, voxel_light_pdf(f.grid.light_density, emission, extinction, distance * distance));
 }
 
 void main() {
@@ -43,7 +50,12 @@ void main() {
         if (goes_on) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
             const vec3 absorbed = tap.sigma_a / bound, scattered = tap.sigma_s / bound;
-            if (has_emission != 0u) p.radiance += p.throughput * absorbed * tap.emission;
+            if (has_emission != 0u) {
+                const vec3 emission = absorbed * tap.emission;
+                p.radiance += p.throughput * emission *
+                              emission_weight(p, f, emission, absorbed + scattered,
+                                              uintBitsToFloat(hit.w) + t);
+            }
             is_real = unit_float(words.z) < scattered[is_chromatic != 0u ? p.hero : 0u];
             weigh_collision(p, absorbed, scattered, is_real);
             const vec3 extinction = absorbed + scattered;

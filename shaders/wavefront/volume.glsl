@@ -29,7 +29,9 @@ GridRecord load_grid(uint texel) {
     t = fetch_scene(texel + 7u);
     g.sigma_a = t.xyz;
     g.emission_scale = t.w;
-    g.sigma_s = fetch_scene(texel + 8u).xyz;
+    t = fetch_scene(texel + 8u);
+    g.sigma_s = t.xyz;
+    g.light_density = uintBitsToFloat(t.w);
     g.emission = fetch_scene(texel + 9u).xyz;
     return g;
 }
@@ -215,8 +217,7 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
         collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
-            // Where the bound is the extinction, rounding may take the quotient beyond 1.
-            result *= max(1.0 - (tap.sigma_a + tap.sigma_s) / bound, vec3(0));
+            result *= max(1.0 - (tap.sigma_a + tap.sigma_s) / bound, 0.0);
             collides = max(result.x, max(result.y, result.z)) > 0.0 && t < f.t_end;
         }
     } while (collides);

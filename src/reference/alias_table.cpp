@@ -28,9 +28,12 @@ AliasTable::AliasTable(const std::vector<double>& weights) : probabilities_(weig
 
 std::uint32_t AliasTable::choose(std::uint32_t word) const {
     const std::uint64_t product = std::uint64_t{word} * entries_.size();
-    const auto row = static_cast<std::uint32_t>(product >> 32);
-    const double remainder = static_cast<double>(product & 0xffffffffu) * 0x1p-32;
-    return remainder < entries_[row].threshold ? row : entries_[row].alias;
+    return choose(word, static_cast<double>(product & 0xffffffffu) * 0x1p-32);
+}
+
+std::uint32_t AliasTable::choose(std::uint32_t word, double fraction) const {
+    const auto row = static_cast<std::uint32_t>(std::uint64_t{word} * entries_.size() >> 32);
+    return fraction < entries_[row].threshold ? row : entries_[row].alias;
 }
 
 } // namespace tyndall::reference

@@ -18,6 +18,9 @@ class AliasTable {
     /// word * n = (row, remainder) in 32 bits each: the row itself if remainder / 2^32 is below its
     /// threshold, else its alias.
     std::uint32_t choose(std::uint32_t word) const;
+    /// Likewise, with `fraction` in [0, 1) for remainder / 2^32: where there are many items, the
+    /// remainder of a word is too coarse.
+    std::uint32_t choose(std::uint32_t word, double fraction) const;
 
   private:
     struct Entry {

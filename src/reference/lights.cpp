@@ -1,6 +1,7 @@
 #include "reference/lights.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace tyndall::reference {
 namespace {
@@ -69,10 +70,11 @@ LightSample sample_point(const dvec3& position, const dvec3& place, const Rgb& i
 } // namespace
 
 Lights::Lights(const Scene& scene, const Geometry& geometry, const dvec3& camera_position)
-    : geometry_(geometry), camera_position_(camera_position),
-      first_emitter_(scene.shapes.size(), -1), choice_({}) {
+    : scene_(scene), geometry_(geometry), camera_position_(camera_position),
+      grid_emitter_(scene.media.size(), -1), first_emitter_(scene.shapes.size(), -1), choice_({}) {
     std::vector<double> powers;
     add_lights(scene, powers);
+    add_grids(scene, powers);
     for (std::uint32_t s = 0; s < scene.shapes.size(); ++s)
         add_surface(scene, s, powers);
     choice_ = AliasTable(powers);
@@ -100,6 +102,29 @@ void Lights::add_lights(const Scene& scene, std::vector<double>& powers) {
     }
 }
 
+void Lights::add_grids(const Scene& scene, std::vector<double>& powers) {
+    for (int index : emitting_grids(scene)) {
+        const Medium& medium = scene.media[static_cast<std::size_t>(index)];
+        std::vector<EmittingVoxel> voxels = emitting_voxels(medium);
+        if (voxels.empty()) continue;
+        std::vector<double> weights;
+        double sum = 0;
+        for (const EmittingVoxel& v : voxels) {
+            weights.push_back(v.power);
+            sum += v.power;
+        }
+        const dmat4 render_from_index =
+            glm::translate(dmat4(1), -camera_position_) * medium.world_from_medium *
+            glm::inverse(std::get<GridDensity>(medium.density).index_from_medium);
+        const double total = sum * std::abs(glm::determinant(glm::dmat3(render_from_index)));
+        grid_emitter_[static_cast<std::size_t>(index)] =
+            static_cast<std::int64_t>(emitters_.size());
+        emitters_.push_back(
+            GridEmitter{index, std::move(voxels), AliasTable(weights), total, render_from_index});
+        powers.push_back(total * 4 * pi);
+    }
+}
+
 void Lights::add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers) {
     const Shape& shape = scene.shapes[index];
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
@@ -121,7 +146,8 @@ std::uint32_t Lights::area_light_index(const PrimitiveId& id) const {
     return static_cast<std::uint32_t>(first_emitter_[id.surface]) + id.primitive;
 }
 
-std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& words) const {
+std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& words,
+                                          const glm::uvec4& voxel_words) const {
     const std::uint32_t index = choice_.choose(words.x);
     const Emitter& emitter = emitters_[index];
     std::optional<LightSample> sample;
@@ -132,6 +158,8 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
     } else if (const auto* spot = std::get_if<SpotLight>(&emitter)) {
         sample = sample_point(spot->position - camera_position_, place, spot->intensity);
         sample->radiance *= spot_falloff(*spot, -glm::dot(sample->direction, spot->axis));
+    } else if (const auto* grid = std::get_if<GridEmitter>(&emitter)) {
+        sample = sample_grid(*grid, place, voxel_words);
     } else {
         const AreaEmitter& area = std::get<AreaEmitter>(emitter);
         sample = sample_area(area, place, unit(words.y), unit(words.z));
@@ -139,6 +167,45 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
     if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
     sample->probability *= choice_.probability(index);
     return sample;
+}
+
+/// A voxel by its emission, a place around it by its tent: together, a point by the trilinear
+/// emission.
+std::optional<LightSample> Lights::sample_grid(const GridEmitter& light, const dvec3& place,
+                                               const glm::uvec4& words) const {
+    const auto tent = [](double u) {
+        return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
+    };
+    const std::uint32_t low = (words.y & 255) << 16 | (words.z & 255) << 8 | (words.w & 255);
+    const glm::ivec3 voxel = light.voxels[light.choice.choose(words.x, low * 0x1p-24)].voxel;
+    const dvec3 index =
+        dvec3(voxel) + dvec3(tent(unit(words.y)), tent(unit(words.z)), tent(unit(words.w)));
+    const Medium& medium = scene_.media[static_cast<std::size_t>(light.medium)];
+    const auto& grid = std::get<GridDensity>(medium.density);
+    if (glm::any(glm::lessThan(index, grid.lower)) || glm::any(glm::greaterThan(index, grid.upper)))
+        return std::nullopt;
+    const dvec3 end(light.render_from_index * glm::dvec4(index, 1));
+    const dvec3 offset = end - place;
+    const double squared = glm::dot(offset, offset);
+    const Rgb emission = voxel_emission(medium, grid, voxel),
+              extinction = voxel_extinction(medium, grid, voxel);
+    const double most = std::max({extinction.x, extinction.y, extinction.z});
+    // Over the probability of the choice, this is the intensity over the squared distance.
+    return LightSample{emission / most,
+                       offset / std::sqrt(squared),
+                       end,
+                       mean(emission) / most * squared / light.total,
+                       false,
+                       light.medium};
+}
+
+double Lights::density(int medium, const Rgb& emission, const Rgb& extinction,
+                       double squared) const {
+    const std::int64_t index = grid_emitter_[static_cast<std::size_t>(medium)];
+    if (index < 0) return 0;
+    const auto& light = std::get<GridEmitter>(emitters_[static_cast<std::size_t>(index)]);
+    return choice_.probability(static_cast<std::size_t>(index)) / light.total * mean(emission) *
+           squared / std::max({extinction.x, extinction.y, extinction.z});
 }
 
 std::optional<LightSample> Lights::sample_area(const AreaEmitter& light, const dvec3& place,

@@ -3,6 +3,7 @@
 
 #include "reference/alias_table.h"
 #include "reference/geometry.h"
+#include "scene/emitting_voxels.h"
 
 namespace tyndall::reference {
 
@@ -13,12 +14,14 @@ struct LightSample {
     std::optional<dvec3> end; ///< Where the shadow ray ends; none: at infinity.
     double probability;       ///< Of a delta light: of choosing it. Else: density per solid angle.
     bool is_delta;
+    /// The light is emission in this medium, and not there where another one is; -1: of none.
+    int medium = -1;
 };
 
 /// Infinite lights are constant: paths find them by escaping, and they are not sampled. The others
-/// are the distant, point and spot lights in the order of Scene::lights, then every primitive of an
-/// emitting shape, in the order of Scene::shapes, as a light of its own; they are chosen in
-/// proportion to their power, averaged over the channels.
+/// are the distant, point and spot lights in the order of Scene::lights, then the grids that emit
+/// (emitting_grids), then every primitive of an emitting shape, in the order of Scene::shapes, as a
+/// light of its own; they are chosen in proportion to their power, averaged over the channels.
 class Lights {
   public:
     /// Keeps references to both. Render space is the world minus camera_position.
@@ -27,14 +30,21 @@ class Lights {
     /// Whether sample() can ever return anything.
     bool can_sample() const { return !choice_.empty(); }
 
-    /// words.x chooses the light, words.y and words.z the point on it. None if it does not shine
-    /// there.
-    std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words) const;
+    /// words.x chooses the light, words.y and words.z the point on it; voxel_words the point of a
+    /// grid. None if it does not shine there.
+    std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words,
+                                      const glm::uvec4& voxel_words) const;
 
     /// Radiance that leaves a hit surface against the direction of the ray.
     Rgb emitted(const SurfaceHit& hit, const dvec3& ray_direction) const;
     /// Density per solid angle with which sample() draws the direction from the place to the hit.
     double density(const dvec3& place, const SurfaceHit& hit) const;
+
+    /// Density with which sample() finds emission at a voxel of a medium, a squared distance away,
+    /// over that with which paths collide there: per solid angle, with the extinction for the
+    /// density of collisions. Emission and extinction are in the same unit. 0 if the medium is no
+    /// light.
+    double density(int medium, const Rgb& emission, const Rgb& extinction, double squared) const;
 
     /// Radiance of everything at infinity that is not sampled.
     Rgb background() const { return background_; }
@@ -45,20 +55,32 @@ class Lights {
         Rgb radiance;
         bool two_sided;
     };
-    using Emitter = std::variant<DistantLight, PointLight, SpotLight, AreaEmitter>;
+    struct GridEmitter {
+        int medium;
+        std::vector<EmittingVoxel> voxels;
+        AliasTable choice;
+        double total; ///< Mean of sigma_a Le over the channels, integrated over the volume.
+        dmat4 render_from_index;
+    };
+    using Emitter = std::variant<DistantLight, PointLight, SpotLight, AreaEmitter, GridEmitter>;
 
     void add_lights(const Scene& scene, std::vector<double>& powers);
+    void add_grids(const Scene& scene, std::vector<double>& powers);
     void add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers);
     std::uint32_t area_light_index(const PrimitiveId& id) const;
     std::optional<LightSample> sample_area(const AreaEmitter& light, const dvec3& place, double u1,
                                            double u2) const;
+    std::optional<LightSample> sample_grid(const GridEmitter& light, const dvec3& place,
+                                           const glm::uvec4& words) const;
     double area_density(const AreaEmitter& light, const dvec3& place,
                         const SurfacePoint& point) const;
 
+    const Scene& scene_;
     const Geometry& geometry_;
     dvec3 camera_position_;
     Rgb background_{0};
     std::vector<Emitter> emitters_;
+    std::vector<std::int64_t> grid_emitter_;  ///< For each of Scene::media; -1: is no light.
     std::vector<std::int64_t> first_emitter_; ///< For each of Scene::shapes; -1: does not emit.
     AliasTable choice_;
 };

@@ -1,7 +1,7 @@
 #include "reference/tracking.h"
 
-#include "reference/blackbody.h"
 #include "reference/medium.h"
+#include "scene/blackbody.h"
 
 #include <algorithm>
 

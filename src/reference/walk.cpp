@@ -76,6 +76,10 @@ Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPa
         if (const auto line = medium_line(start))
             result *= line->is_tracked() ? track_transmittance(*line, end, draw)
                                          : transmittance(line->medium, line->column(end));
+        const bool is_lit =
+            light.medium < 0 || hit ||
+            (start.in.medium == light.medium && start.in.space == &geometry_.world_space());
+        if (!is_lit) return Rgb(0);
         if (!hit || result == Rgb(0)) return result;
         start = leave_surface(*hit, start.ray.direction, start.in);
     }
@@ -137,7 +141,10 @@ class PathTracer::Walk {
     std::optional<double> track(const MediumLine& line, double end) {
         Flight flight(line, end);
         while (const auto at = flight.next(flight_optical_depth(words_.x), unit(words_.y))) {
-            radiance_ += throughput_.beta * at->absorbed * at->emission;
+            const Rgb emission = at->absorbed * at->emission;
+            if (emission != Rgb(0))
+                radiance_ += throughput_.beta * emission *
+                             emission_weight(at->t, emission, at->absorbed + at->scattered);
             const bool is_real = unit(words_.z) < at->scattered[throughput_.hero];
             throughput_ = after_collision(at->absorbed, at->scattered, throughput_, is_real);
             next_event();
@@ -213,8 +220,8 @@ class PathTracer::Walk {
     template<class Respond, class Leave>
     void sample_light(const dvec3& place, Respond&& respond_to, Leave&& start) {
         if (!tracer_.lights_.can_sample()) return;
-        const auto light =
-            tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT));
+        const auto light = tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT),
+                                                  random_.words(event_, shared::BLOCK_EMISSION));
         if (!light) return;
         const Response response = respond_to(light->direction);
         if (response.value == Rgb(0)) return;
@@ -229,6 +236,15 @@ class PathTracer::Walk {
     double hit_weight(const SurfaceHit& hit) const {
         if (!vertex_ || !tracer_.lights_.can_sample()) return 1;
         return mis_weight(vertex_->density, tracer_.lights_.density(vertex_->place, hit));
+    }
+
+    /// MIS weight of emission that the path came upon at distance t, in units of the majorant.
+    double emission_weight(double t, const Rgb& emission, const Rgb& extinction) const {
+        if (!vertex_ || at_.in.space != &tracer_.geometry_.world_space()) return 1;
+        const dvec3 offset = at_.ray.origin + t * at_.ray.direction - vertex_->place;
+        const double density =
+            tracer_.lights_.density(at_.in.medium, emission, extinction, glm::dot(offset, offset));
+        return mis_weight(vertex_->density, density);
     }
 
     /// Russian roulette, late and with the same odds for all paths.

@@ -1,5 +1,6 @@
 #include "render/effects.h"
 
+#include "scene/emitting_voxels.h"
 #include "shared/records.h"
 
 #include <algorithm>
@@ -89,9 +90,12 @@ void Collector::collect_geometry() {
         if (shape.area_light >= 0) f.has_emitters = 1, emitter_by = place("shape", shape.where);
     });
     f.has_interfaces = has_queue(QUEUE_INTERFACE);
-    f.geometry = effects_.region                                     ? effects_.region->geometry
-                 : scene_.shapes.empty() && scene_.instances.empty() ? GEOMETRY_NONE
-                                                                     : GEOMETRY_BVH;
+    const int around = scene_.camera.medium;
+    const bool is_empty = scene_.shapes.empty() && scene_.instances.empty() &&
+                          (around < 0 || scene_.media[around].is_homogeneous());
+    f.geometry = effects_.region ? effects_.region->geometry
+                 : is_empty      ? GEOMETRY_NONE
+                                 : GEOMETRY_BVH;
     constexpr std::array<const char*, 4> names{"nothing", "one box", "one ellipsoid", "hierarchy"};
     add_value("geometry", names[f.geometry]);
     add("interfaces", f.has_interfaces, surface_by[QUEUE_INTERFACE]);
@@ -170,7 +174,8 @@ void Collector::collect_media() {
 
 void Collector::collect_lights() {
     shared::Features& f = effects_.features;
-    f.lights = f.has_emitters ? LIGHTS_AREA : 0;
+    f.lights =
+        (f.has_emitters ? LIGHTS_AREA : 0) | (emitting_grids(scene_).empty() ? 0 : LIGHTS_VOXELS);
     std::string environment_by;
     for (const Light& light : scene_.lights) {
         if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
@@ -190,6 +195,7 @@ void Collector::collect_lights() {
     effects_.samples_lights = f.lights != 0;
     add("environment", f.has_environment, environment_by);
     add("area lights", f.lights & LIGHTS_AREA, "AreaLightSource");
+    add("grids as lights", f.lights & LIGHTS_VOXELS, "emission of media");
     add("distant lights", f.lights & LIGHTS_DISTANT, "LightSource \"distant\"");
     add("point lights", f.lights & LIGHTS_POINT, "LightSource \"point\"");
     add("spot lights", f.lights & LIGHTS_SPOT, "LightSource \"spot\"");

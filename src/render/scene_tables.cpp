@@ -5,9 +5,11 @@
 #include "render/light_table.h"
 #include "render/primitives.h"
 #include "render/volume_tables.h"
+#include "scene/emitting_voxels.h"
 #include "scene/filter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -211,6 +213,15 @@ std::vector<LightRecord> Packer::lights() {
                              (1 - (s->cos_falloff_start + s->cos_total_width) / 2));
         }
     }
+    const std::size_t first_grid = records.size();
+    std::vector<VolumePacker::VoxelLight> grids;
+    for (int medium : emitting_grids(scene_)) {
+        const VolumePacker::VoxelLight light = volumes_->pack_voxel_light(medium);
+        if (light.total == 0) continue;
+        grids.push_back(light);
+        records.push_back({.kind = LIGHT_VOXELS, .primitive = light.texel});
+        powers.push_back(light.total * 4 * pi);
+    }
     for (const Emitter& e : emitters_) {
         const Shape& shape =
             *shape_list_[geometry_.primitives[e.primitive].kind_and_shape & SHAPE_MASK];
@@ -228,6 +239,11 @@ std::vector<LightRecord> Packer::lights() {
             {.threshold = static_cast<float>(cells[i].threshold), .alias = cells[i].alias});
     }
     tables_.push.alias_table = append(table, "light choice");
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const double density = records[first_grid + i].probability / grids[i].total;
+        tables_.texels[grids[i].density + GRID_LIGHT_DENSITY].w =
+            std::bit_cast<std::uint32_t>(static_cast<float>(density));
+    }
     return records;
 }
 

@@ -1,8 +1,10 @@
 #include "render/volume_tables.h"
 
 #include "core/error.h"
+#include "render/light_table.h"
 #include "render/primitives.h"
-#include "scene/spectrum.h"
+#include "scene/blackbody.h"
+#include "scene/emitting_voxels.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +12,8 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
+#include <limits>
+#include <numeric>
 
 namespace tyndall {
 
@@ -19,6 +23,8 @@ namespace {
 
 static_assert(sizeof(BrickTableRecord) == BRICK_TABLE_TEXELS * 16);
 static_assert(sizeof(GridRecord) == GRID_TEXELS * 16);
+static_assert(sizeof(VoxelLightRecord) == VOXEL_LIGHT_TEXELS * 16);
+static_assert(sizeof(EmittingVoxelRecord) == 16);
 static_assert(sizeof(ExponentialRecord) == EXPONENTIAL_TEXELS * 16);
 
 template<typename Record>
@@ -106,7 +112,7 @@ std::uint32_t VolumePacker::pack_grid_density(const GridDensity& density,
                             .sigma_a = triple(density.sigma_a),
                             .emission_scale = pack_grid(density.emission_scale),
                             .sigma_s = triple(density.sigma_s),
-                            .pad0 = 0,
+                            .light_density = 0,
                             .emission = triple(density.emission),
                             .pad1 = 0};
     return append_(texels_of(record), "grids");
@@ -182,13 +188,50 @@ std::uint32_t VolumePacker::pack_majorants(const MajorantGrid& majorants) {
     return texel;
 }
 
+VolumePacker::VoxelLight VolumePacker::pack_voxel_light(int index) {
+    const Medium& medium = scene_.media[index];
+    const auto& density = std::get<GridDensity>(medium.density);
+    const std::vector<EmittingVoxel> voxels = emitting_voxels(medium);
+    const glm::dmat4 render_from_index =
+        render_from_world_ * medium.world_from_medium * glm::inverse(density.index_from_medium);
+    glm::ivec3 lower(std::numeric_limits<int>::max()), upper(std::numeric_limits<int>::min());
+    std::vector<double> powers;
+    for (const EmittingVoxel& v : voxels) {
+        lower = glm::min(lower, v.voxel);
+        upper = glm::max(upper, v.voxel);
+        powers.push_back(v.power);
+    }
+    const bool is_light =
+        !voxels.empty() && glm::all(glm::lessThan(upper - lower, glm::ivec3(0x10000)));
+    std::vector<EmittingVoxelRecord> table;
+    const std::vector<AliasCell> cells = make_alias_table(powers);
+    for (std::size_t i = 0; is_light && i < voxels.size(); ++i) {
+        const glm::uvec3 v(voxels[i].voxel - lower);
+        table.push_back({.xy = v.x | v.y << 16,
+                         .z = v.z,
+                         .threshold = static_cast<float>(cells[i].threshold),
+                         .alias = cells[i].alias});
+    }
+    const double volume = std::abs(glm::determinant(glm::dmat3(render_from_index)));
+    const double total = is_light ? volume * std::accumulate(powers.begin(), powers.end(), 0.0) : 0;
+    std::vector<glm::uvec4> texels(table.size());
+    if (!table.empty()) std::memcpy(texels.data(), table.data(), table.size() * sizeof(table[0]));
+    const VoxelLightRecord record{.render_from_index = make_affine(render_from_index),
+                                  .lower = lower,
+                                  .medium = static_cast<std::uint32_t>(index),
+                                  .voxels = append_(texels, "emitting voxels"),
+                                  .count = static_cast<std::uint32_t>(table.size()),
+                                  .total = static_cast<float>(total)};
+    return {append_(texels_of(record), "emitting voxels"), total, records_[index].density_record};
+}
+
 std::vector<glm::vec4> make_blackbody_table() {
     std::vector<glm::vec4> table;
     for (std::uint32_t i = 0; i < BLACKBODY_ENTRIES; ++i) {
         const double share = double(i) / (BLACKBODY_ENTRIES - 1);
         const double kelvin =
             BLACKBODY_MIN * std::pow(double(BLACKBODY_MAX) / BLACKBODY_MIN, share);
-        table.emplace_back(glm::vec3(blackbody_emission(kelvin)), 0.0f);
+        table.emplace_back(glm::vec3(blackbody_radiance(kelvin)), 0.0f);
     }
     return table;
 }

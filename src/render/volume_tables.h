@@ -27,6 +27,13 @@ class VolumePacker {
     /// What an instance with this transform adds to media indices, so that media that vary in space
     /// move with it: 0 if there are none.
     std::uint32_t medium_shift(const glm::dmat4& world_from_definition);
+    /// A medium of Scene::media on a grid, as a light.
+    struct VoxelLight {
+        std::uint32_t texel;   ///< Of its VoxelLightRecord.
+        double total;          ///< VoxelLightRecord::total; 0 if it is none.
+        std::uint32_t density; ///< Texel of its GridRecord.
+    };
+    VoxelLight pack_voxel_light(int medium);
     VoxelData take_voxels() { return std::move(voxels_); }
 
   private:

@@ -1,110 +1,140 @@
 #include "scene/grid_media.h"
 
-#include "scene/transform.h"
-#include "volume/majorants.h"
+#include "scene/colours.h"
+#include "scene/spectrum.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <fmt/format.h>
-#include <optional>
+#include <span>
 
 namespace tyndall {
 namespace {
 
-/// nx, ny, nz voxels between p0 and p1 in medium space.
-struct VoxelLattice {
-    glm::ivec3 count{1};
-    glm::dmat4 index_from_medium{1};
-
-    std::size_t size() const { return std::size_t(count.x) * count.y * count.z; }
-    /// Of index space: voxels reach half of their size beyond their centres.
-    glm::dvec3 lower() const { return glm::dvec3(-0.5); }
-    glm::dvec3 upper() const { return glm::dvec3(count) - 0.5; }
-};
-
-/// Nothing after an error.
 std::optional<VoxelLattice> read_lattice(Parameters& parameters) {
-    VoxelLattice lattice;
     constexpr Requirement is_count{[](double x) { return x >= 1; }, "a value >= 1"};
+    glm::ivec3 count(1);
     for (int axis = 0; axis < 3; ++axis)
-        lattice.count[axis] = parameters.get_integer(std::string{'n', "xyz"[axis]}, 1, is_count);
-    const glm::dvec3 p0 = parameters.get_point3("p0", {0, 0, 0});
-    const glm::dvec3 p1 = parameters.get_point3("p1", {1, 1, 1});
-    const glm::dvec3 lower = glm::min(p0, p1), extent = glm::abs(p1 - p0);
-    if (extent.x == 0 || extent.y == 0 || extent.z == 0) {
-        parameters.diagnostics().error(
-            parameters.where(), fmt::format("{}: the box from \"p0\" to \"p1\" has no volume "
-                                            "(expected two corners that differ on each axis)",
-                                            parameters.subject()));
-        return std::nullopt;
-    }
-    lattice.index_from_medium = translation(glm::dvec3(-0.5)) *
-                                scaling(glm::dvec3(lattice.count) / extent) * translation(-lower);
-    return lattice;
+        count[axis] = parameters.get_integer(std::string{'n', "xyz"[axis]}, 1, is_count);
+    const std::optional<std::array<glm::dvec3, 2>> box = read_box(parameters);
+    return box ? std::optional(make_lattice(count, *box)) : std::nullopt;
 }
 
-/// Values by voxel, or nothing: not given, or an error was reported.
-std::optional<std::vector<float>> read_voxels(Parameters& parameters, const Parameter* parameter,
-                                              const VoxelLattice& lattice,
-                                              const Requirement& requirement) {
-    if (!parameter) return std::nullopt;
+/// Grids of the channels of a parameter, `channels` values a voxel.
+using Channels = std::vector<std::shared_ptr<const Grid>>;
+
+/// Times a factor; empty if the parameter is not given or an error was reported.
+Channels read_channels(Parameters& parameters, const Parameter* parameter, const VoxelLattice& lattice,
+                       std::size_t channels, double factor, const Requirement& requirement) {
+    if (!parameter) return {};
     const glm::ivec3 n = lattice.count;
-    if (parameter->numbers.size() != lattice.size()) {
+    const std::size_t count = parameter->numbers.size() / channels;
+    if (parameter->numbers.size() != channels * lattice.size()) {
         parameters.diagnostics().error(
             parameter->where,
             fmt::format("parameter {} has {} values (expected nx ny nz = {} x {} x {} = {})",
-                        parameter->title(), parameter->numbers.size(), n.x, n.y, n.z,
-                        double(n.x) * n.y * n.z));
-        return std::nullopt;
+                        parameter->title(), count, n.x, n.y, n.z, double(n.x) * n.y * n.z));
+        return {};
     }
-    std::vector<float> values;
-    values.reserve(parameter->numbers.size());
-    for (const double number : parameter->numbers) {
-        if (!requirement.holds(number)) {
-            const std::size_t at = values.size();
-            parameters.report_value(*parameter,
-                                    fmt::format("{} at voxel ({}, {}, {})", number, at % n.x,
-                                                at / n.x % n.y, at / n.x / n.y),
-                                    requirement.expected);
-            return std::nullopt;
+    Channels grids;
+    std::vector<float> values(count);
+    for (std::size_t c = 0; c < channels; ++c) {
+        for (std::size_t at = 0; at < count; ++at) {
+            const double number = parameter->numbers[channels * at + c];
+            if (!requirement.holds(number)) {
+                parameters.report_value(*parameter,
+                                        fmt::format("{} at voxel ({}, {}, {})", number, at % n.x,
+                                                    at / n.x % n.y, at / n.x / n.y),
+                                        requirement.expected);
+                return {};
+            }
+            values[at] = static_cast<float>(factor * number);
         }
-        values.push_back(static_cast<float>(number));
+        grids.push_back(std::make_shared<const Grid>(make_dense_grid(values, n)));
     }
-    return values;
+    return grids;
 }
 
-std::shared_ptr<const Grid> make_shared_grid(std::span<const float> values,
-                                             const glm::ivec3& count) {
-    return std::make_shared<const Grid>(make_dense_grid(values, count));
+GridDensity make_density(const VoxelLattice& lattice) {
+    return {.index_from_medium = lattice.index_from_medium,
+            .lower = lattice.lower(),
+            .upper = lattice.upper()};
 }
 
-/// Cuts the box to where the medium is, and bounds it.
-void finish_density(GridDensity& density, const Medium& medium) {
-    const VoxelBox support = find_support(*density.density);
-    density.lower = glm::max(density.lower, glm::dvec3(support.lower) - 1.0);
-    density.upper = glm::min(density.upper, glm::dvec3(support.upper) + 1.0);
-    if (support.is_empty()) density.lower = density.upper = glm::dvec3(0);
-    const glm::dmat4 world_from_index =
-        medium.world_from_medium * glm::inverse(density.index_from_medium);
-    const double voxel_length = std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_index))));
-    const Rgb sigma_t = medium.sigma_a + medium.sigma_s;
-    density.majorants = choose_majorants(*density.density, voxel_length,
-                                         std::max({sigma_t.r, sigma_t.g, sigma_t.b}));
+/// "Le" or "temperature", times "Lescale" by voxel.
+void read_grid_emission(Parameters& parameters, Medium& medium, GridDensity& density,
+                        const VoxelLattice& lattice, InputFiles& files) {
+    const Parameter* temperature = parameters.find("float", "temperature");
+    const Channels kelvin =
+        read_channels(parameters, temperature, lattice, 1, 1, require::anything);
+    const Parameter* scale = parameters.find("float", "Lescale");
+    const Channels scales = read_channels(parameters, scale, lattice, 1, 1, require::non_negative);
+    if (!scales.empty()) density.emission_scale = scales[0];
+    const std::optional<Rgb> emission = read_light_colour(parameters, "Le", files);
+    medium.emission = emission.value_or(Rgb(temperature ? 1 : 0));
+    if (emission && temperature) {
+        parameters.diagnostics().error(
+            temperature->where, fmt::format("{} has both \"Le\" and \"temperature\" (expected one of them)",
+                                            parameters.subject()));
+    }
+    if (kelvin.empty()) return;
+    density.temperature = std::make_shared<const Grid>(
+        read_temperature(parameters, *kelvin[0], find_support(*density.density)));
 }
 
 } // namespace
 
-void read_uniform_grid(Parameters& parameters, Medium& medium) {
+void read_uniform_grid(Parameters& parameters, Medium& medium, InputFiles& files) {
     const std::optional<VoxelLattice> lattice = read_lattice(parameters);
     const Parameter* values = parameters.find_required("float", "density");
-    if (!lattice || !values) return;
-    GridDensity density{.index_from_medium = lattice->index_from_medium,
-                        .lower = lattice->lower(),
-                        .upper = lattice->upper()};
-    const auto voxels = read_voxels(parameters, values, *lattice, require::non_negative);
-    if (!voxels) return;
-    density.density = make_shared_grid(*voxels, lattice->count);
+    if (!lattice) return;
+    const Channels voxels =
+        read_channels(parameters, values, *lattice, 1, 1, require::non_negative);
+    if (voxels.empty()) return;
+    GridDensity density = make_density(*lattice);
+    density.density = voxels[0];
+    read_grid_emission(parameters, medium, density, *lattice, files);
+    finish_density(density, medium);
+    medium.density = std::move(density);
+}
+
+void read_rgb_grid(Parameters& parameters, Medium& medium) {
+    const std::optional<VoxelLattice> lattice = read_lattice(parameters);
+    const double scale = parameters.get_float("scale", 1, require::non_negative);
+    const double emission_scale = parameters.get_float("Lescale", 1, require::non_negative);
+    const Parameter* sigma_a = parameters.find("rgb", "sigma_a");
+    const Parameter* sigma_s = parameters.find("rgb", "sigma_s");
+    const Parameter* emission = parameters.find("rgb", "Le");
+    if (!sigma_a && !sigma_s) {
+        parameters.diagnostics().error(
+            parameters.where(), fmt::format("{} needs a parameter \"rgb sigma_a\" or \"rgb sigma_s\"",
+                                            parameters.subject()));
+    }
+    if (emission && !sigma_a) {
+        parameters.diagnostics().error(
+            emission->where, fmt::format("{} has \"rgb Le\" without \"rgb sigma_a\" (expected both)",
+                                         parameters.subject()));
+    }
+    if (!lattice || (!sigma_a && !sigma_s)) return;
+    GridDensity density = make_density(*lattice);
+    // Constant up to the faces of the box, so with one more voxel around it.
+    const auto constant = std::make_shared<const Grid>(
+        make_constant_grid({glm::ivec3(-1), lattice->count}, static_cast<float>(scale)));
+    const auto fill = [&](std::array<std::shared_ptr<const Grid>, 3>& grids, const Parameter* parameter,
+                          double factor) {
+        const Channels channels =
+            read_channels(parameters, parameter, *lattice, 3, factor, require::non_negative);
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            grids[c] = channels[c];
+        return !parameter || !channels.empty();
+    };
+    density.sigma_a.fill(constant);
+    density.sigma_s.fill(constant);
+    const bool is_read = fill(density.sigma_a, sigma_a, scale) & fill(density.sigma_s, sigma_s, scale) &
+                         fill(density.emission, emission, 1);
+    if (!is_read) return;
+    // pbrt multiplies rgb by D65 as it is; only for other media it divides by the luminance, which D65 shares with a
+    // constant 1.
+    const double luminance = integrate_xyz(Spectrum::piecewise_linear({{300, 1}, {900, 1}})).y;
+    medium.emission = Rgb(emission ? emission_scale * luminance : 0);
     finish_density(density, medium);
     medium.density = std::move(density);
 }

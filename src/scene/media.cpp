@@ -1,28 +1,99 @@
 #include "scene/media.h"
 
+#include "scene/cloud.h"
 #include "scene/colours.h"
 #include "scene/grid_media.h"
+#include "scene/media_presets.h"
+#include "scene/transform.h"
 #include "scene/type_names.h"
+#include "scene/volume_media.h"
+
+#include <cmath>
+#include <fmt/format.h>
 
 namespace tyndall {
 namespace {
 
+/// k of Schlick's phase function, given or fitted to g.
+double read_schlick_k(Parameters& parameters) {
+    constexpr Requirement is_k{[](double x) { return x > -1 && x < 1; }, "a value in (-1, 1)"};
+    if (parameters.find("float", "k")) return parameters.get_float("k", 0, is_k);
+    // Blasi, Le Saec and Schlick, A Rendering Algorithm for Discrete Volume Density Objects (1993).
+    constexpr Requirement is_fitted{[](double g) { return std::abs(1.55 * g - 0.55 * g * g * g) < 1; },
+                                    "|g| < 0.938, where k = 1.55 g - 0.55 g^3 is below 1; or give \"float k\""};
+    const double g = parameters.get_float("g", 0, is_fitted);
+    return 1.55 * g - 0.55 * g * g * g;
+}
+
 PhaseFunction read_phase_function(Parameters& parameters) {
+    using Kind = PhaseFunction::Kind;
     static const TypeNames names{
-        "phase function", {"henyey-greenstein"}, {"schlick", "rayleigh", "mie", "isotropic"}};
+        "phase function", {"henyey-greenstein", "isotropic", "schlick", "rayleigh"}, {"mie"}};
     const std::string kind = parameters.get_string("phase", "henyey-greenstein");
     check_type(names, kind, parameters.where(), parameters.diagnostics());
-    return {.kind = PhaseFunction::Kind::henyey_greenstein,
-            .g = parameters.get_float("g", 0, require::cosine)};
+    if (kind == "schlick") return {.kind = Kind::schlick, .k = read_schlick_k(parameters)};
+    if (kind == "rayleigh") return {.kind = Kind::rayleigh};
+    if (kind == "isotropic") return {.kind = Kind::henyey_greenstein};
+    return {.kind = Kind::henyey_greenstein, .g = parameters.get_float("g", 0, require::cosine)};
+}
+
+void read_coefficients(Parameters& parameters, Medium& medium, InputFiles& files) {
+    const double scale = parameters.get_float("scale", 1, require::non_negative);
+    const std::string preset = parameters.get_string("preset", "");
+    if (preset.empty()) {
+        medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
+        medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
+    } else if (const std::optional<MediumPreset> found = find_medium_preset(preset)) {
+        medium.sigma_a = found->sigma_a * scale;
+        medium.sigma_s = found->sigma_s * scale;
+    } else {
+        parameters.report_value(*parameters.find("string", "preset"), in_quotes(preset),
+                                "one of " + medium_preset_names());
+    }
+}
+
+void read_emission(Parameters& parameters, Medium& medium, InputFiles& files) {
+    medium.emission = read_light_colour(parameters, "Le", files).value_or(Rgb(0)) *
+                      parameters.get_float("Lescale", 1, require::non_negative);
+}
+
+void read_exponential(Parameters& parameters, Medium& medium) {
+    ExponentialDensity density;
+    density.scale_height = parameters.get_float("scaleheight", 1, require::positive);
+    density.is_spherical = parameters.find("float", "radius") != nullptr;
+    if (density.is_spherical) {
+        density.radius = parameters.get_float("radius", 1, require::positive);
+        density.origin = parameters.get_point3("center", {0, 0, 0});
+    } else {
+        density.origin = parameters.get_point3("origin", {0, 0, 0});
+        const glm::dvec3 up = parameters.get_vector3("up", {0, 1, 0});
+        if (!(glm::length(up) > 0)) {
+            parameters.diagnostics().error(
+                parameters.where(), fmt::format("{}: \"up\" has no direction (expected another vector than 0 0 0)",
+                                                parameters.subject()));
+            return;
+        }
+        density.up = glm::normalize(up);
+    }
+    medium.density = density;
+}
+
+/// What a density in space of its own needs.
+bool check_transform(Parameters& parameters, const Medium& medium) {
+    if (is_invertible(medium.world_from_medium)) return true;
+    parameters.diagnostics().error(parameters.where(),
+                                   "the transformation has no inverse (expected one that keeps three dimensions)");
+    return false;
 }
 
 } // namespace
 
 Medium read_medium(const std::string& name, Parameters& parameters,
                    const glm::dmat4& world_from_medium, InputFiles& files) {
-    static const TypeNames names{"medium",
-                                 {"homogeneous", "uniformgrid"},
-                                 {"rgbgrid", "cloud", "nanovdb", "vdb", "exponential"}};
+    static const TypeNames names{
+        "medium",
+        {"homogeneous", "uniformgrid", "rgbgrid", "cloud", "nanovdb", "vdb", "exponential"},
+        {}};
     Medium medium;
     medium.name = name;
     medium.where = parameters.where();
@@ -32,17 +103,23 @@ Medium read_medium(const std::string& name, Parameters& parameters,
     if (!type || !check_type(names, type_name, parameters.where(), parameters.diagnostics())) {
         return medium;
     }
-    parameters.reject("string", "preset");
-    const double scale = parameters.get_float("scale", 1, require::non_negative);
-    medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
-    medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
-    const std::optional<Rgb> emission = read_light_colour(parameters, "Le", files);
-    medium.emission = emission.value_or(Rgb(0));
+    if (type_name != "homogeneous" && !check_transform(parameters, medium)) return medium;
     medium.phases.front() = read_phase_function(parameters);
+    if (type_name == "rgbgrid") {
+        read_rgb_grid(parameters, medium);
+        parameters.report_unused();
+        return medium;
+    }
+    read_coefficients(parameters, medium, files);
     if (type_name == "uniformgrid") {
-        read_uniform_grid(parameters, medium);
+        read_uniform_grid(parameters, medium, files);
+    } else if (type_name == "cloud") {
+        read_cloud(parameters, medium);
+    } else if (type_name == "homogeneous" || type_name == "exponential") {
+        read_emission(parameters, medium, files);
+        if (type_name == "exponential") read_exponential(parameters, medium);
     } else {
-        medium.emission *= parameters.get_float("Lescale", 1, require::non_negative);
+        read_volume(parameters, medium, type_name == "vdb", files);
     }
     parameters.report_unused();
     return medium;

@@ -115,10 +115,19 @@ double Parameters::get_float(std::string_view name, double fallback,
     return fallback;
 }
 
-glm::dvec3 Parameters::get_point3(std::string_view name, const glm::dvec3& fallback) {
-    const Parameter* parameter = find_single("point3", name, 3);
+glm::dvec3 Parameters::get_triple(std::string_view type, std::string_view name,
+                                  const glm::dvec3& fallback) {
+    const Parameter* parameter = find_single(type, name, 3);
     if (!parameter) return fallback;
     return {parameter->numbers[0], parameter->numbers[1], parameter->numbers[2]};
+}
+
+glm::dvec3 Parameters::get_point3(std::string_view name, const glm::dvec3& fallback) {
+    return get_triple("point3", name, fallback);
+}
+
+glm::dvec3 Parameters::get_vector3(std::string_view name, const glm::dvec3& fallback) {
+    return get_triple("vector3", name, fallback);
 }
 
 std::string Parameters::get_string(std::string_view name, const std::string& fallback) {

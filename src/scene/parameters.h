@@ -72,6 +72,7 @@ class Parameters {
     double get_float(std::string_view name, double fallback,
                      const Requirement& requirement = require::anything);
     glm::dvec3 get_point3(std::string_view name, const glm::dvec3& fallback);
+    glm::dvec3 get_vector3(std::string_view name, const glm::dvec3& fallback);
     std::string get_string(std::string_view name, const std::string& fallback);
 
     /// The parameter, or null; marks it as used. Types with several values are read this way.
@@ -103,6 +104,7 @@ class Parameters {
         bool used = false;
     };
     const Parameter* find_single(std::string_view type, std::string_view name, std::size_t count);
+    glm::dvec3 get_triple(std::string_view type, std::string_view name, const glm::dvec3& fallback);
     std::string suggestion(const Parameter& parameter) const;
 
     std::string subject_;

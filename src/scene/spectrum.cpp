@@ -1,6 +1,7 @@
 #include "scene/spectrum.h"
 
 #include "scene/cie.h"
+#include "scene/material_spectra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,12 +147,11 @@ std::optional<Spectrum> named_spectrum(std::string_view name) {
     if (name == "stdillum-D65") return d65();
     if (name == "stdillum-D50") return make_daylight(d50_kelvin);
     if (name == "stdillum-A") return make_illuminant_a();
-    return std::nullopt;
+    return material_spectrum(name);
 }
 
 bool is_unsupported_spectrum(std::string_view name) {
-    return name.starts_with("glass-") || name.starts_with("metal-") ||
-           name.starts_with("stdillum-F") || name == "illum-acesD60";
+    return name.starts_with("stdillum-F") || name == "illum-acesD60";
 }
 
 glm::dvec3 integrate_xyz(const Spectrum& s) {

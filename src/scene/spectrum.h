@@ -43,11 +43,12 @@ class Spectrum {
     double kelvin_ = 0;           ///< Of a blackbody; else 0.
 };
 
-/// A spectrum by its name in pbrt: "stdillum-A", "stdillum-D50", "stdillum-D65".
+/// A spectrum by its name in pbrt: "stdillum-A", "stdillum-D50", "stdillum-D65", and what
+/// scene/material_spectra.h has.
 std::optional<Spectrum> named_spectrum(std::string_view name);
 
-/// Whether pbrt has a spectrum of that name that named_spectrum has not (glass, metals, fluorescent
-/// lamps, ACES D60).
+/// Whether pbrt has a spectrum of that name that named_spectrum has not (fluorescent lamps, ACES
+/// D60).
 bool is_unsupported_spectrum(std::string_view name);
 
 /// Integrals of s * x_bar, s * y_bar, s * z_bar [nm]. y_bar alone gives 106.857.

@@ -2,6 +2,7 @@
 // their BSDF, by quadrature in double precision; and light sampling finds the same light as paths
 // do.
 #include "device/device_test.h"
+#include "device/test_scenes.h"
 #include "support/materials.h"
 
 #include <cmath>
@@ -120,6 +121,41 @@ TEST_F(RoughBoundaryTest, TheSmoothestFacetsAreAMirror) {
         const double f = fresnel(1.5, 0.8), truth = f + (1 - f) / 2.25;
         expect(scene, 1024, truth, 0.98 * truth);
     }
+}
+
+/// The foggy room, its ball, cloud and torus (with vertex normals) of these materials.
+Scene room_of(const Material& ball, const Material& cloud, const Material& torus) {
+    Scene scene = busy_scene();
+    for (const auto& [shape, material] : {std::pair{2, ball}, {3, torus}, {4, cloud}}) {
+        scene.shapes[shape].material = static_cast<int>(scene.materials.size());
+        scene.materials.push_back(material);
+    }
+    return scene;
+}
+
+constexpr auto kGlass = Material::Kind::dielectric;
+constexpr auto kPane = Material::Kind::thin_dielectric;
+constexpr auto kMetal = Material::Kind::conductor;
+
+TEST_F(RoughBoundaryTest, SmoothBoundariesInFogAreTheReferences) {
+    expect_agreement(room_of({.kind = kPane, .eta = Rgb(1.7)}, {.kind = kGlass, .eta = Rgb(1.35)},
+                             {.kind = kMetal, .eta = {0.2, 0.9, 1.1}, .k = {3.9, 2.4, 2.1}}),
+                     64);
+}
+
+TEST_F(RoughBoundaryTest, RoughBoundariesInFogAreTheReferences) {
+    expect_agreement(
+        room_of({.kind = kGlass, .eta = Rgb(1.5), .alpha = 0.05},
+                {.kind = kGlass, .eta = Rgb(1.35), .alpha = 0.3},
+                {.kind = kMetal, .eta = {0.2, 0.9, 1.1}, .k = {3.9, 2.4, 2.1}, .alpha = 0.2}),
+        64);
+}
+
+TEST_F(RoughBoundaryTest, DispersionInFogIsTheReferences) {
+    expect_agreement(room_of({.kind = kPane, .eta = {1.4, 1.6, 1.8}},
+                             {.kind = kGlass, .eta = {1.3, 1.35, 1.4}},
+                             {.kind = kGlass, .eta = {1.4, 1.6, 1.8}, .alpha = 0.2}),
+                     64);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // Density that falls off exponentially, above a plane and around a sphere; emission of tracked
 // media.
-#include "reference/blackbody.h"
 #include "reference/exponential.h"
 #include "reference/quadrature.h"
 #include "reference/sampling.h"
+#include "scene/blackbody.h"
 #include "scene/spectrum.h"
 #include "support/estimates.h"
 #include "support/scenes.h"

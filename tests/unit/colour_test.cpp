@@ -63,7 +63,7 @@ TEST(Illuminants, MatchTheTableOfTheCie) {
     EXPECT_NEAR(a(780), 241.675, 1e-3);
     EXPECT_GT(std::abs(d65(460) - d50(460)), 1);
     EXPECT_FALSE(named_spectrum("stdillum-F1"));
-    EXPECT_TRUE(is_unsupported_spectrum("metal-Cu-eta"));
+    EXPECT_TRUE(is_unsupported_spectrum("illum-acesD60"));
     EXPECT_FALSE(is_unsupported_spectrum("copper.spd"));
 }
 
@@ -182,8 +182,8 @@ TEST(ColourParameters, AreChecked) {
         error("\"blackbody L\" 0"),
         "scene.pbrt:2:24: error: parameter \"blackbody L\" is no temperature (expected one value > "
         "0, in kelvin)");
-    EXPECT_EQ(error("\"spectrum L\" \"glass-BK7\""),
-              "scene.pbrt:2:24: error: named spectrum \"glass-BK7\" is not supported yet");
+    EXPECT_EQ(error("\"spectrum L\" \"stdillum-F2\""),
+              "scene.pbrt:2:24: error: named spectrum \"stdillum-F2\" is not supported yet");
     EXPECT_EQ(error("\"spectrum L\" \"none.spd\""),
               "scene.pbrt:2:24: error: no spectrum is named \"none.spd\", and cannot read "
               "\"none.spd\": no "

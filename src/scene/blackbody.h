@@ -3,10 +3,10 @@
 
 #include "scene/scene.h"
 
-namespace tyndall::reference {
+namespace tyndall {
 
 /// blackbody_emission (scene/spectrum.h) to about 1e-6, fast enough to be asked at every collision.
 /// 0 up to 100 K, as in pbrt.
 Rgb blackbody_radiance(double kelvin);
 
-} // namespace tyndall::reference
+} // namespace tyndall

@@ -1,8 +1,8 @@
-#include "reference/blackbody.h"
+#include "scene/blackbody.h"
 
 #include "scene/spectrum.h"
 
-namespace tyndall::reference {
+namespace tyndall {
 namespace {
 
 constexpr double coldest = 100, hottest = 1e6; // kelvin
@@ -36,4 +36,4 @@ Rgb blackbody_radiance(double kelvin) {
     return glm::max(rgb_from_xyz(glm::exp(log_xyz)), 0.0);
 }
 
-} // namespace tyndall::reference
+} // namespace tyndall
