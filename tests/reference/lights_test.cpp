@@ -57,7 +57,7 @@ support::Estimate solid_angle(const EmitterScene& emitter, const dvec3& place) {
     constexpr std::uint32_t n = 100000;
     double sum = 0, squares = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-        const auto sample = emitter.lights.sample(place, words(i));
+        const auto sample = emitter.lights.sample(place, words(i), {});
         if (!sample) continue;
         sum += 1 / sample->probability;
         squares += 1 / (sample->probability * sample->probability);
@@ -138,8 +138,8 @@ TEST(AreaLights, OnlyTheFrontEmitsUnlessTwoSided) {
         const auto back = geometry.intersect({{0.5, 0, -2}, {0, 0, 1}}, 9);
         EXPECT_EQ(lights.emitted(*front, {0, 0, -1}), Rgb(1));
         EXPECT_EQ(lights.emitted(*back, {0, 0, 1}), Rgb(two_sided ? 1 : 0));
-        EXPECT_TRUE(lights.sample({0.5, 0, 2}, words(0)).has_value());
-        EXPECT_EQ(lights.sample({0.5, 0, -2}, words(0)).has_value(), two_sided);
+        EXPECT_TRUE(lights.sample({0.5, 0, 2}, words(0), {}).has_value());
+        EXPECT_EQ(lights.sample({0.5, 0, -2}, words(0), {}).has_value(), two_sided);
     }
 }
 
@@ -164,7 +164,8 @@ TEST(Lights, DeltaLightsGiveWhatTheyShould) {
         add_light(scene, light);
         const dvec3 camera(0, 0, 1);
         const Geometry geometry(scene, camera);
-        const auto sample = Lights(scene, geometry, camera).sample(world_place - camera, words(0));
+        const auto sample =
+            Lights(scene, geometry, camera).sample(world_place - camera, words(0), {});
         return sample ? sample->radiance.x : 0;
     };
     EXPECT_NEAR(arriving(PointLight{Rgb(8), {0, 0, 4}}, {0, 0, 2}), 2, 1e-14);

@@ -11,7 +11,7 @@ namespace tyndall::reference {
 namespace {
 
 PhaseFunction hg(double g) {
-    return {PhaseFunction::Kind::henyey_greenstein, g};
+    return {.kind = PhaseFunction::Kind::henyey_greenstein, .g = g};
 }
 
 struct Known {
