@@ -101,8 +101,9 @@ Throughput after_segment(const Medium& medium, const Throughput& before, const S
 
 Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Throughput& before,
                            bool is_real) {
-    const Rgb probability = is_real ? scattered : 1.0 - scattered;
-    const Rgb contribution = is_real ? scattered : 1.0 - scattered - absorbed;
+    // Where the majorant is the extinction, rounding may take the shares beyond 1.
+    const Rgb probability = is_real ? scattered : glm::max(1.0 - scattered, 0.0);
+    const Rgb contribution = is_real ? scattered : glm::max(1.0 - scattered - absorbed, 0.0);
     const double average = mean(before.ratio * probability);
     Throughput after = before;
     after.beta *= contribution / average;

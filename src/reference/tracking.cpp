@@ -73,13 +73,12 @@ GridFlight::GridFlight(const GridDensity& grid, const Medium& medium, const Ray&
                        double t_end)
     : grid_(grid), medium_(medium), ray_(local),
       sigma_max_(has_channel_grids(medium) ? 1 : largest(medium.sigma_a + medium.sigma_s)) {
-    const MajorantGrid& m = grid.majorants;
-    const dvec3 cells_lower(m.lower), cells_upper(m.lower + m.size * m.count);
-    std::tie(t_, t_end_) =
-        clip(local, glm::max(grid.lower, cells_lower), glm::min(grid.upper, cells_upper), t_end);
+    std::tie(t_, t_end_) = clip(local, grid.lower, grid.upper, t_end);
     if (!(t_ < t_end_)) return;
-    const dvec3 at = (ray_.origin + t_ * ray_.direction - cells_lower) / double(m.size);
-    cell_ = glm::clamp(glm::ivec3(glm::floor(at)), glm::ivec3(0), m.count - 1); // rounding
+    const MajorantGrid& m = grid.majorants;
+    const dvec3 at = (ray_.origin + t_ * ray_.direction - dvec3(m.lower)) / double(m.size);
+    // The box lies in the cells, up to rounding.
+    cell_ = glm::clamp(glm::ivec3(glm::floor(at)), glm::ivec3(0), m.count - 1);
 }
 
 /// Where the line leaves the cell along an axis. From the index of the cell, so that no error adds

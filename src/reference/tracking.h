@@ -21,8 +21,7 @@ struct TentativeCollision {
     Rgb emission;  ///< Le
 };
 
-/// Cells of the majorant grid along a line (Amanatides and Woo 1987), cut to the box of the grid.
-/// Beyond the cells the density is 0.
+/// Cells of the majorant grid along a line (Amanatides and Woo 1987), cut to the box of the medium.
 class GridFlight {
   public:
     GridFlight(const GridDensity& grid, const Medium& medium, const Ray& local, double t_end);
@@ -89,7 +88,7 @@ Rgb track_transmittance(const MediumLine& line, double t_end, Draw&& draw) {
         const auto [tau, u] = draw();
         const std::optional<TentativeCollision> at = flight.next(tau, u);
         if (!at) break;
-        result *= 1.0 - (at->absorbed + at->scattered);
+        result *= glm::max(1.0 - (at->absorbed + at->scattered), 0.0); // rounding: beyond 1
     }
     return result;
 }

@@ -42,8 +42,9 @@ struct PhaseFunction {
 
 /// Density that scales the coefficients of a medium, on voxels (uniformgrid, nanovdb, vdb, cloud).
 struct GridDensity {
-    glm::dmat4 index_from_medium{1};     ///< Of all grids here.
-    glm::dvec3 lower{0}, upper{1};       ///< Box in index space outside of which the medium is not.
+    glm::dmat4 index_from_medium{1}; ///< Of all grids here.
+    /// Box in index space outside of which the medium is not; lies in the cells of `majorants`.
+    glm::dvec3 lower{0}, upper{1};
     std::shared_ptr<const Grid> density; ///< Null: 1 everywhere in the box (rgbgrid).
     /// rgbgrid: coefficients by voxel and channel, in place of density * sigma; null otherwise.
     std::array<std::shared_ptr<const Grid>, 3> sigma_a, sigma_s, emission;

@@ -164,7 +164,8 @@ TEST(Lights, DeltaLightsGiveWhatTheyShould) {
         add_light(scene, light);
         const dvec3 camera(0, 0, 1);
         const Geometry geometry(scene, camera);
-        const auto sample = Lights(scene, geometry, camera).sample(world_place - camera, words(0), {});
+        const auto sample =
+            Lights(scene, geometry, camera).sample(world_place - camera, words(0), {});
         return sample ? sample->radiance.x : 0;
     };
     EXPECT_NEAR(arriving(PointLight{Rgb(8), {0, 0, 4}}, {0, 0, 2}), 2, 1e-14);

@@ -181,7 +181,8 @@ TEST(ChannelGrids, EqualTheHomogeneousChannels) {
     }
 }
 
-/// A cloud, lit by the sky and a lamp; scaled and turned as a whole, sigma by the inverse scale.
+/// A cloud, lit by the sky and a lamp; scaled and turned as a whole. It does not emit: grids that
+/// do are sampled as lights, but not those of instances.
 Scene cloud_scene(double scale, double sigma_scale, const dmat4& turn, bool instanced) {
     Scene scene = empty_scene(12);
     scene.camera.kind = Camera::Kind::perspective;
@@ -194,11 +195,8 @@ Scene cloud_scene(double scale, double sigma_scale, const dmat4& turn, bool inst
     const int medium =
         add_medium(scene, sigma_scale * Rgb(0.1, 0.3, 0.2), sigma_scale * Rgb(2, 5, 8), 0.5);
     const Lattice lattice{{-1, -1.5, -1}, {1, 1, 1}, {9, 7, 12}};
-    GridDensity density =
+    scene.media[0].density =
         lattice.density([](const glm::ivec3& v) { return (v.x * v.y + 3 * v.z) % 5 / 4.0; }, 4);
-    density.temperature = lattice.grid([](const glm::ivec3& v) { return 300.0 * v.y; });
-    scene.media[0].density = density;
-    scene.media[0].emission = Rgb(0.01);
     if (instanced) {
         scene.objects.push_back(
             {"cloud", {support::make_shape(support::full_sphere(1.4), {.inside = medium})}});

@@ -17,6 +17,13 @@ ChannelGrids channel_grids(const Lattice& lattice,
     return grids;
 }
 
+/// Bounds the field, and cuts the box to the cells.
+void set_majorants(GridDensity& density, const Grid& field, int cell_size) {
+    const MajorantGrid m = density.majorants = build_majorants(field, cell_size);
+    density.lower = glm::max(density.lower, glm::dvec3(m.lower));
+    density.upper = glm::min(density.upper, glm::dvec3(m.lower + m.size * m.count));
+}
+
 glm::dvec3 intervals(const Lattice& lattice) {
     return glm::dvec3(lattice.count - 1);
 }
@@ -42,7 +49,7 @@ GridDensity Lattice::density(const VoxelFunction& value, int cell_size) const {
     density.lower = glm::dvec3(0);
     density.upper = intervals(*this);
     density.density = grid(value);
-    density.majorants = build_majorants(*density.density, cell_size);
+    set_majorants(density, *density.density, cell_size);
     return density;
 }
 
@@ -53,7 +60,7 @@ void set_channel_grids(Medium& medium, const Lattice& lattice,
     density.density = nullptr;
     density.sigma_a = channel_grids(lattice, sigma_a);
     density.sigma_s = channel_grids(lattice, sigma_s);
-    density.majorants = build_majorants(max_extinction(density.sigma_a, density.sigma_s), 3);
+    set_majorants(density, max_extinction(density.sigma_a, density.sigma_s), 3);
     medium.sigma_a = medium.sigma_s = Rgb(1);
     medium.density = std::move(density);
 }
