@@ -62,8 +62,8 @@ void finish_density(GridDensity& density, const Medium& medium) {
         medium.world_from_medium * glm::inverse(density.index_from_medium);
     const double voxel_length = std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_index))));
     const Rgb sigma_t = medium.sigma_a + medium.sigma_s;
-    density.majorants =
-        choose_majorants(field, voxel_length, is_rgb ? 1 : std::max({sigma_t.r, sigma_t.g, sigma_t.b}));
+    density.majorants = choose_majorants(field, voxel_length,
+                                         is_rgb ? 1 : std::max({sigma_t.r, sigma_t.g, sigma_t.b}));
 }
 
 } // namespace tyndall

@@ -22,8 +22,9 @@ std::optional<VoxelLattice> read_lattice(Parameters& parameters) {
 using Channels = std::vector<std::shared_ptr<const Grid>>;
 
 /// Times a factor; empty if the parameter is not given or an error was reported.
-Channels read_channels(Parameters& parameters, const Parameter* parameter, const VoxelLattice& lattice,
-                       std::size_t channels, double factor, const Requirement& requirement) {
+Channels read_channels(Parameters& parameters, const Parameter* parameter,
+                       const VoxelLattice& lattice, std::size_t channels, double factor,
+                       const Requirement& requirement) {
     if (!parameter) return {};
     const glm::ivec3 n = lattice.count;
     const std::size_t count = parameter->numbers.size() / channels;
@@ -72,8 +73,9 @@ void read_grid_emission(Parameters& parameters, Medium& medium, GridDensity& den
     medium.emission = emission.value_or(Rgb(temperature ? 1 : 0));
     if (emission && temperature) {
         parameters.diagnostics().error(
-            temperature->where, fmt::format("{} has both \"Le\" and \"temperature\" (expected one of them)",
-                                            parameters.subject()));
+            temperature->where,
+            fmt::format("{} has both \"Le\" and \"temperature\" (expected one of them)",
+                        parameters.subject()));
     }
     if (kelvin.empty()) return;
     density.temperature = std::make_shared<const Grid>(
@@ -105,21 +107,23 @@ void read_rgb_grid(Parameters& parameters, Medium& medium) {
     const Parameter* emission = parameters.find("rgb", "Le");
     if (!sigma_a && !sigma_s) {
         parameters.diagnostics().error(
-            parameters.where(), fmt::format("{} needs a parameter \"rgb sigma_a\" or \"rgb sigma_s\"",
-                                            parameters.subject()));
+            parameters.where(),
+            fmt::format("{} needs a parameter \"rgb sigma_a\" or \"rgb sigma_s\"",
+                        parameters.subject()));
     }
     if (emission && !sigma_a) {
         parameters.diagnostics().error(
-            emission->where, fmt::format("{} has \"rgb Le\" without \"rgb sigma_a\" (expected both)",
-                                         parameters.subject()));
+            emission->where,
+            fmt::format("{} has \"rgb Le\" without \"rgb sigma_a\" (expected both)",
+                        parameters.subject()));
     }
     if (!lattice || (!sigma_a && !sigma_s)) return;
     GridDensity density = make_density(*lattice);
     // Constant up to the faces of the box, so with one more voxel around it.
     const auto constant = std::make_shared<const Grid>(
         make_constant_grid({glm::ivec3(-1), lattice->count}, static_cast<float>(scale)));
-    const auto fill = [&](std::array<std::shared_ptr<const Grid>, 3>& grids, const Parameter* parameter,
-                          double factor) {
+    const auto fill = [&](std::array<std::shared_ptr<const Grid>, 3>& grids,
+                          const Parameter* parameter, double factor) {
         const Channels channels =
             read_channels(parameters, parameter, *lattice, 3, factor, require::non_negative);
         for (std::size_t c = 0; c < channels.size(); ++c)
@@ -128,11 +132,12 @@ void read_rgb_grid(Parameters& parameters, Medium& medium) {
     };
     density.sigma_a.fill(constant);
     density.sigma_s.fill(constant);
-    const bool is_read = fill(density.sigma_a, sigma_a, scale) & fill(density.sigma_s, sigma_s, scale) &
+    const bool is_read = fill(density.sigma_a, sigma_a, scale) &
+                         fill(density.sigma_s, sigma_s, scale) &
                          fill(density.emission, emission, 1);
     if (!is_read) return;
-    // pbrt multiplies rgb by D65 as it is; only for other media it divides by the luminance, which D65 shares with a
-    // constant 1.
+    // pbrt multiplies rgb by D65 as it is; only for other media it divides by the luminance, which
+    // D65 shares with a constant 1.
     const double luminance = integrate_xyz(Spectrum::piecewise_linear({{300, 1}, {900, 1}})).y;
     medium.emission = Rgb(emission ? emission_scale * luminance : 0);
     finish_density(density, medium);

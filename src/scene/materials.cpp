@@ -20,9 +20,10 @@ double read_alpha(Parameters& parameters) {
     if (u != v) {
         parameters.diagnostics().error(
             parameters.where(),
-            fmt::format("{}: \"uroughness\" {} and \"vroughness\" {} differ: anisotropic roughness is "
-                        "not supported yet",
-                        parameters.subject(), u, v));
+            fmt::format(
+                "{}: \"uroughness\" {} and \"vroughness\" {} differ: anisotropic roughness is "
+                "not supported yet",
+                parameters.subject(), u, v));
     }
     // pbrt-v4, TrowbridgeReitzDistribution::RoughnessToAlpha.
     return parameters.get_bool("remaproughness", true) ? std::sqrt(u) : u;
@@ -55,7 +56,8 @@ void read_conductor(Parameters& parameters, Material& material, InputFiles& file
                             parameters.subject(), reflectance->title()));
         }
         // The index whose reflectance at normal incidence is r (pbrt-v4, ConductorMaterial).
-        const Rgb r = glm::min(read_reflectance(parameters, "reflectance", Rgb(0.5), files), Rgb(0.9999));
+        const Rgb r =
+            glm::min(read_reflectance(parameters, "reflectance", Rgb(0.5), files), Rgb(0.9999));
         material.eta = Rgb(1);
         material.k = 2.0 * glm::sqrt(r / (1.0 - r));
         return;
@@ -72,7 +74,8 @@ Material read_material(const std::string& type, Parameters& parameters, InputFil
     static const TypeNames names{
         "material",
         {"diffuse", "dielectric", "thindielectric", "conductor", "interface"},
-        {"coateddiffuse", "coatedconductor", "diffusetransmission", "hair", "measured", "mix", "subsurface"}};
+        {"coateddiffuse", "coatedconductor", "diffusetransmission", "hair", "measured", "mix",
+         "subsurface"}};
     Material material;
     material.where = parameters.where();
     const bool is_deprecated = type.empty() || type == "none";

@@ -19,8 +19,9 @@ double read_schlick_k(Parameters& parameters) {
     constexpr Requirement is_k{[](double x) { return x > -1 && x < 1; }, "a value in (-1, 1)"};
     if (parameters.find("float", "k")) return parameters.get_float("k", 0, is_k);
     // Blasi, Le Saec and Schlick, A Rendering Algorithm for Discrete Volume Density Objects (1993).
-    constexpr Requirement is_fitted{[](double g) { return std::abs(1.55 * g - 0.55 * g * g * g) < 1; },
-                                    "|g| < 0.938, where k = 1.55 g - 0.55 g^3 is below 1; or give \"float k\""};
+    constexpr Requirement is_fitted{
+        [](double g) { return std::abs(1.55 * g - 0.55 * g * g * g) < 1; },
+        "|g| < 0.938, where k = 1.55 g - 0.55 g^3 is below 1; or give \"float k\""};
     const double g = parameters.get_float("g", 0, is_fitted);
     return 1.55 * g - 0.55 * g * g * g;
 }
@@ -69,8 +70,9 @@ void read_exponential(Parameters& parameters, Medium& medium) {
         const glm::dvec3 up = parameters.get_vector3("up", {0, 1, 0});
         if (!(glm::length(up) > 0)) {
             parameters.diagnostics().error(
-                parameters.where(), fmt::format("{}: \"up\" has no direction (expected another vector than 0 0 0)",
-                                                parameters.subject()));
+                parameters.where(),
+                fmt::format("{}: \"up\" has no direction (expected another vector than 0 0 0)",
+                            parameters.subject()));
             return;
         }
         density.up = glm::normalize(up);
@@ -81,8 +83,9 @@ void read_exponential(Parameters& parameters, Medium& medium) {
 /// What a density in space of its own needs.
 bool check_transform(Parameters& parameters, const Medium& medium) {
     if (is_invertible(medium.world_from_medium)) return true;
-    parameters.diagnostics().error(parameters.where(),
-                                   "the transformation has no inverse (expected one that keeps three dimensions)");
+    parameters.diagnostics().error(
+        parameters.where(),
+        "the transformation has no inverse (expected one that keeps three dimensions)");
     return false;
 }
 

@@ -52,8 +52,8 @@ std::optional<VolumeFields> read_fields(Parameters& parameters, const Parameter&
                                                .may_be_missing = !names.is_temperature_given,
                                                .may_be_negative = true})};
     } catch (const Error& error) {
-        parameters.diagnostics().error(filename.where,
-                                       fmt::format("{}: {}", file_in_quotes(path.string()), error.what()));
+        parameters.diagnostics().error(
+            filename.where, fmt::format("{}: {}", file_in_quotes(path.string()), error.what()));
         return std::nullopt;
     }
 }
@@ -103,9 +103,9 @@ void set_box(GridDensity& density, const VolumeFields& fields) {
         glm::inverse(fields.density.world_from_index) * fields.temperature->world_from_index;
     const VoxelBox other = fields.temperature->active;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 point = transform_point(
-            map, glm::mix(glm::dvec3(other.lower), glm::dvec3(other.upper) + 1.0,
-                          glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+        const glm::dvec3 point =
+            transform_point(map, glm::mix(glm::dvec3(other.lower), glm::dvec3(other.upper) + 1.0,
+                                          glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2)));
         density.lower = glm::min(density.lower, point);
         density.upper = glm::max(density.upper, point);
     }
@@ -128,11 +128,12 @@ void read_volume(Parameters& parameters, Medium& medium, bool is_vdb, InputFiles
         read_temperature(parameters, Grid{}, VoxelBox{}); // so that its parameters are not unused
         return;
     }
-    for (const Field* field : {&fields->density, fields->temperature ? &*fields->temperature : nullptr})
+    for (const Field* field :
+         {&fields->density, fields->temperature ? &*fields->temperature : nullptr})
         if (field && !is_invertible(field->world_from_index)) {
-            parameters.diagnostics().error(filename->where,
-                                           "a grid's transform has no inverse (expected one that keeps three "
-                                           "dimensions)");
+            parameters.diagnostics().error(
+                filename->where, "a grid's transform has no inverse (expected one that keeps three "
+                                 "dimensions)");
             return;
         }
     GridDensity density{.index_from_medium = glm::inverse(fields->density.world_from_index)};

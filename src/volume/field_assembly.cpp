@@ -14,8 +14,10 @@ namespace {
 float checked(double value, const glm::ivec3& voxel, const FieldRequest& request) {
     const bool is_finite = std::abs(value) <= double{std::numeric_limits<float>::max()};
     if (!is_finite || (value < 0 && !request.may_be_negative)) {
-        refuse_field(request, fmt::format("voxel ({}, {}, {}) is {} (expected {})", voxel.x, voxel.y, voxel.z, value,
-                                          is_finite ? "a value >= 0" : "a finite value that fits a float"));
+        refuse_field(request,
+                     fmt::format("voxel ({}, {}, {}) is {} (expected {})", voxel.x, voxel.y,
+                                 voxel.z, value,
+                                 is_finite ? "a value >= 0" : "a finite value that fits a float"));
     }
     return static_cast<float>(value);
 }
@@ -28,8 +30,9 @@ VoxelBox box_of(const glm::ivec3& brick, int edge) {
 
 Grid assemble_grid(const VdbTree& tree, const FieldRequest& request) {
     if (tree.leaves.size() > request.max_voxels / kBrickVoxels) {
-        refuse_field(request, fmt::format("{} voxels in nodes of 8^3 are too many (expected at most {})",
-                                          tree.leaves.size() * kBrickVoxels, request.max_voxels));
+        refuse_field(request,
+                     fmt::format("{} voxels in nodes of 8^3 are too many (expected at most {})",
+                                 tree.leaves.size() * kBrickVoxels, request.max_voxels));
     }
     VoxelBox box;
     for (const VdbLeaf& leaf : tree.leaves)
@@ -37,6 +40,7 @@ Grid assemble_grid(const VdbTree& tree, const FieldRequest& request) {
     for (const VdbTile& tile : tree.tiles)
         box = box.joined(box_of(tile.first_brick, tile.edge));
     GridBuilder builder(box, request.max_voxels);
+    builder.reserve(tree.leaves.size());
     for (const VdbTile& tile : tree.tiles) {
         const float value = checked(tile.value, kBrickSize * tile.first_brick, request);
         each_brick_of(box_of(tile.first_brick, tile.edge),

@@ -34,7 +34,8 @@ struct VdbTree {
 /// @throws Error (bad_input)  see read_field.
 Grid assemble_grid(const VdbTree& tree, const FieldRequest& request);
 
-/// @throws Error (bad_input)  there is no such grid; lists those that there are. Returns if it may be missing.
+/// @throws Error (bad_input)  there is no such grid; lists those that there are. Returns if it may
+/// be missing.
 void report_missing(const FieldRequest& request, const std::vector<std::string>& names);
 
 /// `grid "density": what`

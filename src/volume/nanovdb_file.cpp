@@ -56,8 +56,8 @@ class Reader {
     bool is_at_end() const { return bytes_.empty(); }
     std::string_view take(std::uint64_t count, const char* what) {
         if (count > bytes_.size()) {
-            refuse(fmt::format("the NanoVDB file is cut off: {} bytes of {} and {} are left", count, what,
-                               bytes_.size()));
+            refuse(fmt::format("the NanoVDB file is cut off: {} bytes of {} and {} are left", count,
+                               what, bytes_.size()));
         }
         const std::string_view piece = bytes_.substr(0, count);
         bytes_.remove_prefix(count);
@@ -89,8 +89,9 @@ std::vector<PackedGrid> list_grids(std::string_view file) {
         if (header.magic != magic && header.magic != later_magic)
             refuse("the NanoVDB file is damaged: a segment does not begin as one");
         if (header.version >> 21 != major_version) {
-            refuse(fmt::format("the file is of version {} of NanoVDB (expected {}: convert it anew)",
-                               header.version >> 21, major_version));
+            refuse(
+                fmt::format("the file is of version {} of NanoVDB (expected {}: convert it anew)",
+                            header.version >> 21, major_version));
         }
         if (header.codec > Codec::blosc) refuse("the NanoVDB file is packed in an unknown way");
         std::vector<GridEntry> entries;
@@ -98,7 +99,8 @@ std::vector<PackedGrid> list_grids(std::string_view file) {
         for (int i = 0; i < header.grid_count; ++i) {
             const auto entry = reader.take<GridEntry>("a grid's description");
             const std::string_view name = reader.take(entry.name_size, "a grid's name");
-            grids.push_back({std::string(name.substr(0, name.find('\0'))), header.codec, entry.grid_size, {}});
+            grids.push_back(
+                {std::string(name.substr(0, name.find('\0'))), header.codec, entry.grid_size, {}});
             entries.push_back(entry);
         }
         for (std::size_t i = 0; i < entries.size(); ++i)
@@ -117,14 +119,16 @@ AlignedBytes allocate(std::uint64_t size) {
 }
 
 [[noreturn]] void refuse_size(const PackedGrid& grid) {
-    refuse(fmt::format("grid \"{}\": damaged: its {} bytes do not unpack to the {} that the file tells of", grid.name,
-                       grid.bytes.size(), grid.size));
+    refuse(fmt::format(
+        "grid \"{}\": damaged: its {} bytes do not unpack to the {} that the file tells of",
+        grid.name, grid.bytes.size(), grid.size));
 }
 
 AlignedBytes unpack_zip(const PackedGrid& grid) {
     constexpr std::uint64_t largest_ratio = 1032; // of deflate: 258 bytes from 2 bits
     Reader reader(grid.bytes);
-    const std::string_view packed = reader.take(reader.take<std::uint64_t>("a packed size"), "a packed grid");
+    const std::string_view packed =
+        reader.take(reader.take<std::uint64_t>("a packed size"), "a packed grid");
     if (grid.size / largest_ratio > packed.size()) refuse_size(grid);
     AlignedBytes bytes = allocate(grid.size);
     uLongf size = grid.size;
@@ -139,7 +143,8 @@ AlignedBytes unpack_blosc(const PackedGrid& grid) {
     std::vector<std::string_view> chunks;
     std::uint64_t total = 0;
     for (Reader reader(grid.bytes); !reader.is_at_end();) {
-        const std::string_view chunk = reader.take(reader.take<std::uint64_t>("a packed size"), "a packed chunk");
+        const std::string_view chunk =
+            reader.take(reader.take<std::uint64_t>("a packed size"), "a packed chunk");
         std::size_t size = 0;
         if (blosc_cbuffer_validate(chunk.data(), chunk.size(), &size) != 0) refuse_size(grid);
         total += size;
@@ -149,7 +154,8 @@ AlignedBytes unpack_blosc(const PackedGrid& grid) {
     AlignedBytes bytes = allocate(grid.size);
     std::uint64_t done = 0;
     for (const std::string_view chunk : chunks) {
-        const int size = blosc_decompress_ctx(chunk.data(), bytes.get() + done, grid.size - done, 1);
+        const int size =
+            blosc_decompress_ctx(chunk.data(), bytes.get() + done, grid.size - done, 1);
         if (size <= 0) refuse_size(grid);
         done += static_cast<std::uint64_t>(size);
     }
@@ -177,7 +183,8 @@ bool is_nanovdb(std::string_view bytes) {
 
 std::optional<Field> read_nanovdb(std::string_view file, const FieldRequest& request) {
     const std::vector<PackedGrid> grids = list_grids(file);
-    const auto grid = std::find_if(grids.begin(), grids.end(), [&](const PackedGrid& g) { return g.name == request.name; });
+    const auto grid = std::find_if(grids.begin(), grids.end(),
+                                   [&](const PackedGrid& g) { return g.name == request.name; });
     if (grid == grids.end()) {
         std::vector<std::string> names;
         for (const PackedGrid& g : grids)
@@ -187,8 +194,9 @@ std::optional<Field> read_nanovdb(std::string_view file, const FieldRequest& req
     }
     // Nodes of a quarter of a byte a voxel to eight, and tables over them.
     if (grid->size / 16 > request.max_voxels) {
-        refuse_field(request, fmt::format("{} bytes are too many (expected at most {}, for {} voxels)", grid->size,
-                                          16 * request.max_voxels, request.max_voxels));
+        refuse_field(request,
+                     fmt::format("{} bytes are too many (expected at most {}, for {} voxels)",
+                                 grid->size, 16 * request.max_voxels, request.max_voxels));
     }
     const AlignedBytes bytes = unpack(*grid);
     const std::span<const std::byte> span(bytes.get(), grid->size);

@@ -22,18 +22,23 @@ const std::byte* bytes_of(const T* object) {
 /// The bytes of a grid, from which nothing is read that they do not hold.
 class GridBytes {
   public:
-    GridBytes(std::span<const std::byte> bytes, const FieldRequest& request) : bytes_(bytes), request_(request) {}
+    GridBytes(std::span<const std::byte> bytes, const FieldRequest& request)
+        : bytes_(bytes), request_(request) {}
 
     [[noreturn]] void refuse(const char* what) const {
-        refuse_field(request_, fmt::format("damaged: {} outside of the grid's {} bytes", what, bytes_.size()));
+        refuse_field(request_, fmt::format("damaged: {} outside of the grid's {} bytes", what,
+                                           bytes_.size()));
     }
 
     /// The object at an offset from another one, with room for `extra` bytes behind it.
     template<typename T>
-    const T* at(const void* base, std::int64_t offset, const char* what, std::uint64_t extra = 0) const {
+    const T* at(const void* base, std::int64_t offset, const char* what,
+                std::uint64_t extra = 0) const {
         const std::int64_t start = static_cast<const std::byte*>(base) - bytes_.data();
         const auto size = static_cast<std::int64_t>(bytes_.size());
-        if (offset < -start || offset > size - start || (start + offset) % std::int64_t{alignment} != 0) refuse(what);
+        if (offset < -start || offset > size - start ||
+            (start + offset) % std::int64_t{alignment} != 0)
+            refuse(what);
         const auto room = static_cast<std::uint64_t>(size - start - offset);
         if (room < sizeof(T) || room - sizeof(T) < extra) refuse(what);
         return reinterpret_cast<const T*>(static_cast<const std::byte*>(base) + offset);
@@ -51,7 +56,8 @@ class GridBytes {
 /// CRC32 of what the grid's checksum covers in a node of that type.
 template<typename Node>
 std::uint32_t node_crc(const Node* node) {
-    return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(node), sizeof(Node)));
+    return static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const Bytef*>(node), sizeof(Node)));
 }
 
 /// Walks the tree of a grid of values that are built as BuildT.
@@ -73,14 +79,16 @@ class TreeWalk {
         root_ = bytes_.at<Root>(first, 0, "tiles of the root lie",
                                 std::uint64_t{first->mTableSize} * sizeof(typename Root::Tile));
         if (!(root_->mBackground == 0))
-            refuse_field(bytes_.request(), fmt::format("the background is {} (expected 0)", root_->mBackground));
+            refuse_field(bytes_.request(),
+                         fmt::format("the background is {} (expected 0)", root_->mBackground));
         std::set<std::array<int, 3>> origins;
         for (std::uint32_t i = 0; i < root_->mTableSize; ++i) {
             const auto* tile = root_->tile(i);
             const nanovdb::Coord c = tile->origin();
             // Nodes that lie over each other would make a small file take forever.
             if (!origins.insert({c[0], c[1], c[2]}).second)
-                refuse_field(bytes_.request(), "damaged: two tiles of the root are in the same place");
+                refuse_field(bytes_.request(),
+                             "damaged: two tiles of the root are in the same place");
             const glm::ivec3 brick = glm::ivec3(c[0], c[1], c[2]) >> 3;
             if (tile->isChild())
                 walk_upper(child<Upper>(root_, tile->child, uppers_), brick);
@@ -94,11 +102,12 @@ class TreeWalk {
         return std::move(tree_);
     }
 
-    /// The two halves of the checksum (nanovdb/util/GridChecksum.h): of grid, tree and root; and of the checksums of
-    /// all nodes, each in 64 bits.
+    /// The two halves of the checksum (nanovdb/util/GridChecksum.h): of grid, tree and root; and of
+    /// the checksums of all nodes, each in 64 bits.
     std::array<std::uint32_t, 2> checksum(bool is_breadth_first) {
         constexpr std::size_t first_byte = 16; // behind magic number and checksum
-        const std::byte* end = bytes_of(root_ + 1) + root_->mTableSize * sizeof(typename Root::Tile);
+        const std::byte* end =
+            bytes_of(root_ + 1) + root_->mTableSize * sizeof(typename Root::Tile);
         const auto head = crc32_z(0, reinterpret_cast<const Bytef*>(bytes_.begin() + first_byte),
                                   static_cast<std::size_t>(end - bytes_.begin()) - first_byte);
         std::vector<std::uint64_t> nodes;
@@ -110,8 +119,8 @@ class TreeWalk {
         add(uppers_);
         add(lowers_);
         add(leaves_);
-        const auto tail =
-            crc32_z(0, reinterpret_cast<const Bytef*>(nodes.data()), nodes.size() * sizeof(nodes[0]));
+        const auto tail = crc32_z(0, reinterpret_cast<const Bytef*>(nodes.data()),
+                                  nodes.size() * sizeof(nodes[0]));
         return {static_cast<std::uint32_t>(head), static_cast<std::uint32_t>(tail)};
     }
     bool is_empty() const { return root_->mTableSize == 0; }
@@ -178,7 +187,8 @@ class TreeWalk {
 };
 
 const nanovdb::GridData* header_of(const GridBytes& bytes) {
-    return bytes.at<nanovdb::GridData>(bytes.begin(), 0, "its header lies", sizeof(nanovdb::TreeData<3>));
+    return bytes.at<nanovdb::GridData>(bytes.begin(), 0, "its header lies",
+                                       sizeof(nanovdb::TreeData<3>));
 }
 
 template<typename BuildT>
@@ -191,7 +201,8 @@ VdbTree walk_tree(const GridBytes& bytes) {
     constexpr std::uint32_t none = 0xFFFFFFFFu;
     const std::array<std::uint32_t, 2> stored{static_cast<std::uint32_t>(header->mChecksum),
                                               static_cast<std::uint32_t>(header->mChecksum >> 32)};
-    const bool is_breadth_first = header->mFlags & static_cast<std::uint32_t>(nanovdb::GridFlags::IsBreadthFirst);
+    const bool is_breadth_first =
+        header->mFlags & static_cast<std::uint32_t>(nanovdb::GridFlags::IsBreadthFirst);
     const std::array<std::uint32_t, 2> computed = walk.checksum(is_breadth_first);
     if ((stored[0] != none && stored[0] != computed[0]) ||
         (stored[1] != none && stored[1] != computed[1] && !walk.is_empty()))
@@ -217,7 +228,9 @@ VdbTree read_nanovdb_tree(std::span<const std::byte> span, const FieldRequest& r
     case nanovdb::GridType::FpN:
         return walk_tree<nanovdb::FpN>(bytes);
     default:
-        refuse_field(request, "values of another type than float (expected float, double, Fp4, Fp8, Fp16 or FpN)");
+        refuse_field(
+            request,
+            "values of another type than float (expected float, double, Fp4, Fp8, Fp16 or FpN)");
     }
 }
 
@@ -228,13 +241,16 @@ Field read_nanovdb_header(std::span<const std::byte> span, const FieldRequest& r
     if (header->mMagic != NANOVDB_MAGIC_NUMBER && header->mMagic != later_magic)
         refuse_field(request, "damaged: it does not begin as a grid of NanoVDB");
     if (header->mVersion.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER) {
-        refuse_field(request, fmt::format("version {} of NanoVDB (expected {})", header->mVersion.getMajor(),
-                                          NANOVDB_MAJOR_VERSION_NUMBER));
+        refuse_field(request,
+                     fmt::format("version {} of NanoVDB (expected {})", header->mVersion.getMajor(),
+                                 NANOVDB_MAJOR_VERSION_NUMBER));
     }
-    if (header->mGridClass != nanovdb::GridClass::FogVolume && header->mGridClass != nanovdb::GridClass::Unknown) {
+    if (header->mGridClass != nanovdb::GridClass::FogVolume &&
+        header->mGridClass != nanovdb::GridClass::Unknown) {
         refuse_field(request, fmt::format("{} (expected a fog volume)",
-                                          header->mGridClass == nanovdb::GridClass::LevelSet ? "a level set"
-                                                                                             : "no density"));
+                                          header->mGridClass == nanovdb::GridClass::LevelSet
+                                              ? "a level set"
+                                              : "no density"));
     }
     Field field;
     for (int row = 0; row < 3; ++row) {
@@ -245,7 +261,8 @@ Field read_nanovdb_header(std::span<const std::byte> span, const FieldRequest& r
     // The box is the first member of the root, whatever the type of its values.
     const auto* tree = static_cast<const nanovdb::TreeData<3>*>(header->treePtr());
     if (tree->mNodeOffset[3] > bytes.size()) bytes.refuse("the root lies");
-    const auto* box = bytes.at<nanovdb::CoordBBox>(tree, static_cast<std::int64_t>(tree->mNodeOffset[3]), "the root lies");
+    const auto* box = bytes.at<nanovdb::CoordBBox>(
+        tree, static_cast<std::int64_t>(tree->mNodeOffset[3]), "the root lies");
     field.active.lower = {box->min()[0], box->min()[1], box->min()[2]};
     field.active.upper = {box->max()[0], box->max()[1], box->max()[2]};
     return field;

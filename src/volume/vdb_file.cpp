@@ -26,7 +26,8 @@ class MemoryBuffer : public std::streambuf {
     }
 
   protected:
-    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    pos_type seekoff(off_type offset, std::ios_base::seekdir from,
+                     std::ios_base::openmode) override {
         const off_type base = from == std::ios_base::beg   ? 0
                               : from == std::ios_base::cur ? gptr() - eback()
                                                            : egptr() - eback();
@@ -39,7 +40,8 @@ class MemoryBuffer : public std::streambuf {
     }
 };
 
-/// The archive of a file in memory: OpenVDB's own has either no access by name or no stream of the caller's.
+/// The archive of a file in memory: OpenVDB's own has either no access by name or no stream of the
+/// caller's.
 class MemoryArchive : public openvdb::io::Archive {
   public:
     explicit MemoryArchive(std::string_view bytes);
@@ -49,12 +51,14 @@ class MemoryArchive : public openvdb::io::Archive {
     const std::vector<std::string>& names() const { return names_; }
 
   private:
-    openvdb::GridBase::Ptr read_grid(const openvdb::io::GridDescriptor& descriptor, const FieldRequest& request);
+    openvdb::GridBase::Ptr read_grid(const openvdb::io::GridDescriptor& descriptor,
+                                     const FieldRequest& request);
     void read_tree(openvdb::GridBase& grid, const openvdb::io::GridDescriptor& descriptor,
                    const FieldRequest& request);
 
     MemoryBuffer buffer_;
-    std::shared_ptr<openvdb::io::StreamMetadata> metadata_ = std::make_shared<openvdb::io::StreamMetadata>();
+    std::shared_ptr<openvdb::io::StreamMetadata> metadata_ =
+        std::make_shared<openvdb::io::StreamMetadata>();
     std::istream stream_; ///< Points to metadata_.
     std::vector<std::string> names_;
     std::vector<openvdb::io::GridDescriptor> descriptors_;
@@ -71,8 +75,8 @@ MemoryArchive::MemoryArchive(std::string_view bytes) : buffer_(bytes), stream_(&
     setLibraryVersion(stream_);
     setDataCompression(stream_);
     if (!inputHasGridOffsets()) {
-        throw Error(ExitStatus::bad_input,
-                    "the file was written as a stream, without a table of grids (expected one written as a file)");
+        throw Error(ExitStatus::bad_input, "the file was written as a stream, without a table of "
+                                           "grids (expected one written as a file)");
     }
     openvdb::MetaMap metadata;
     metadata.readMeta(stream_);
@@ -97,7 +101,8 @@ openvdb::GridBase::Ptr MemoryArchive::read_grid(const openvdb::io::GridDescripto
     using openvdb::GridBase;
     GridBase::Ptr grid = GridBase::createGrid(descriptor.gridType());
     if (!grid->isType<openvdb::FloatGrid>() && !grid->isType<openvdb::DoubleGrid>()) {
-        refuse_field(request, fmt::format("values of type {} (expected float, half or double)", grid->valueType()));
+        refuse_field(request, fmt::format("values of type {} (expected float, half or double)",
+                                          grid->valueType()));
     }
     grid->setSaveFloatAsHalf(descriptor.saveFloatAsHalf());
     descriptor.seekToGrid(stream_);
@@ -120,8 +125,9 @@ openvdb::GridBase::Ptr MemoryArchive::read_grid(const openvdb::io::GridDescripto
     if (!has_transform_first) grid->readTransform(stream_);
     const std::uint64_t voxels = std::uint64_t{grid->constBaseTree().leafCount()} * kBrickVoxels;
     if (voxels > request.max_voxels) {
-        refuse_field(request, fmt::format("{} voxels in nodes of 8^3 are too many (expected at most {})", voxels,
-                                          request.max_voxels));
+        refuse_field(request,
+                     fmt::format("{} voxels in nodes of 8^3 are too many (expected at most {})",
+                                 voxels, request.max_voxels));
     }
     grid->readBuffers(stream_);
     return grid;
@@ -193,20 +199,24 @@ std::optional<Field> read_vdb(std::string_view bytes, const FieldRequest& reques
             report_missing(request, archive.names());
             return std::nullopt;
         }
-        if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME && grid->getGridClass() != openvdb::GRID_UNKNOWN) {
-            refuse_field(request, fmt::format("a {} (expected a fog volume)",
-                                              openvdb::GridBase::gridClassToString(grid->getGridClass())));
+        if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME &&
+            grid->getGridClass() != openvdb::GRID_UNKNOWN) {
+            refuse_field(request,
+                         fmt::format("a {} (expected a fog volume)",
+                                     openvdb::GridBase::gridClassToString(grid->getGridClass())));
         }
         if (!grid->transform().isLinear())
             refuse_field(request, "a frustum for its transform (expected an affine one)");
-        if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid)) return field_of(*floats, request);
+        if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
+            return field_of(*floats, request);
         return field_of(*openvdb::gridPtrCast<openvdb::DoubleGrid>(grid), request);
     } catch (const std::ios_base::failure&) {
         throw Error(ExitStatus::bad_input, "the OpenVDB file is cut off or damaged");
     } catch (const openvdb::Exception& exception) {
         throw Error(ExitStatus::bad_input, fmt::format("OpenVDB: {}", exception.what()));
     } catch (const std::length_error&) {
-        throw Error(ExitStatus::bad_input, "the OpenVDB file is damaged: it tells of impossible sizes");
+        throw Error(ExitStatus::bad_input,
+                    "the OpenVDB file is damaged: it tells of impossible sizes");
     }
 }
 

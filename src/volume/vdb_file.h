@@ -1,6 +1,7 @@
 /// Files of OpenVDB. See volume_file.h, which is what others include.
 ///
-/// Source: the library's own reader (openvdb/io), run over a stream that throws where the bytes end.
+/// Source: the library's own reader (openvdb/io), run over a stream that throws where the bytes
+/// end.
 #pragma once
 
 #include "volume/volume_file.h"

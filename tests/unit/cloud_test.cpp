@@ -31,8 +31,9 @@ TEST(Cloud, IsSolidBelowAndClearAbove) {
 }
 
 TEST(Cloud, VoxelsFollowTheFormula) {
-    const Scene scene = read_world("MakeNamedMedium \"m\" \"string type\" \"cloud\" \"float frequency\" 1 "
-                                   "\"point3 p1\" [ 1 0.9 1 ] \"rgb sigma_a\" [ 0 0 0 ] \"float g\" 0.5");
+    const Scene scene =
+        read_world("MakeNamedMedium \"m\" \"string type\" \"cloud\" \"float frequency\" 1 "
+                   "\"point3 p1\" [ 1 0.9 1 ] \"rgb sigma_a\" [ 0 0 0 ] \"float g\" 0.5");
     const Medium& medium = scene.media.at(0);
     EXPECT_EQ(medium.phases[0].g, 0.5);
     const auto& density = std::get<GridDensity>(medium.density);
@@ -41,11 +42,12 @@ TEST(Cloud, VoxelsFollowTheFormula) {
         for (double x = 0; x < 1; x += 0.13) {
             const glm::dvec3 index(std::round(32 * x), 20, 5);
             const glm::dvec3 point(glm::inverse(density.index_from_medium) * glm::dvec4(index, 1));
-            worst = std::max(worst, std::abs(density.density->sample(index) - cloud_density(point, 1, 1, frequency)));
+            worst = std::max(worst, std::abs(density.density->sample(index) -
+                                             cloud_density(point, 1, 1, frequency)));
         }
         return worst;
     };
-    EXPECT_LT(error_at(1), 1e-6); // the rounding to float
+    EXPECT_LT(error_at(1), 1e-6);    // the rounding to float
     EXPECT_GT(error_at(1.01), 1e-4); // control
     // It does not fade at the faces.
     EXPECT_EQ(density.density->sample({5, -0.5, 5}), 1);
@@ -53,10 +55,13 @@ TEST(Cloud, VoxelsFollowTheFormula) {
 }
 
 TEST(Cloud, ResolutionIsBounded) {
-    const std::vector<std::string> warnings = world_warnings(
-        "MakeNamedMedium \"m\" \"string type\" \"cloud\" \"float frequency\" 50 \"point3 p1\" [ 1 0.01 0.01 ]");
-    EXPECT_EQ(warnings, std::vector<std::string>{"scene.pbrt:2:1: warning: medium \"m\" would take 1600 x 16 x 16 voxels; "
-                                                 "it is smoothed to 512 x 16 x 16"});
+    const std::vector<std::string> warnings =
+        world_warnings("MakeNamedMedium \"m\" \"string type\" \"cloud\" \"float frequency\" 50 "
+                       "\"point3 p1\" [ 1 0.01 0.01 ]");
+    EXPECT_EQ(warnings,
+              std::vector<std::string>{
+                  "scene.pbrt:2:1: warning: medium \"m\" would take 1600 x 16 x 16 voxels; "
+                  "it is smoothed to 512 x 16 x 16"});
 }
 
 } // namespace

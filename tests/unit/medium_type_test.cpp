@@ -67,13 +67,15 @@ TEST(UniformGrid, IsChecked) {
 }
 
 TEST(UniformGrid, Emits) {
-    const std::string grid = "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [ 1 1 ] ";
+    const std::string grid =
+        "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [ 1 1 ] ";
     const Medium glow = read_one(grid + "\"rgb Le\" [ 1 2 3 ] \"float Lescale\" [ 5 6 ]");
     EXPECT_TRUE(is_near(glow.emission, Rgb(1, 2, 3)));
     EXPECT_EQ(std::get<GridDensity>(glow.density).emission_scale->value({1, 0, 0}), 6);
     EXPECT_FALSE(std::get<GridDensity>(glow.density).temperature);
-    const Medium fire = read_one(grid + "\"float temperature\" [ 1000 30 ] \"float temperaturecutoff\" 20 "
-                                        "\"float temperaturescale\" 2");
+    const Medium fire =
+        read_one(grid + "\"float temperature\" [ 1000 30 ] \"float temperaturecutoff\" 20 "
+                        "\"float temperaturescale\" 2");
     EXPECT_EQ(fire.emission, Rgb(1));
     const auto& density = std::get<GridDensity>(fire.density);
     EXPECT_FALSE(density.emission_scale);
@@ -87,8 +89,9 @@ TEST(UniformGrid, Emits) {
 }
 
 TEST(RgbGrid, HasCoefficientsByChannel) {
-    const Medium medium = read_one("\"string type\" \"rgbgrid\" \"integer nz\" 2 \"float scale\" 2\n"
-                                   "\"rgb sigma_a\" [ 1 2 3 4 5 6 ] \"rgb Le\" [ 0 0 1 1 0 0 ] \"float Lescale\" 3");
+    const Medium medium =
+        read_one("\"string type\" \"rgbgrid\" \"integer nz\" 2 \"float scale\" 2\n"
+                 "\"rgb sigma_a\" [ 1 2 3 4 5 6 ] \"rgb Le\" [ 0 0 1 1 0 0 ] \"float Lescale\" 3");
     const auto& density = std::get<GridDensity>(medium.density);
     EXPECT_FALSE(density.density);
     EXPECT_EQ(density.sigma_a[1]->value({0, 0, 0}), 4);
@@ -98,35 +101,44 @@ TEST(RgbGrid, HasCoefficientsByChannel) {
     EXPECT_EQ(density.emission[2]->value({0, 0, 0}), 1);
     EXPECT_TRUE(is_near(medium.emission, Rgb(3 * 106.857), 1e-2));
     EXPECT_EQ(medium.sigma_a, Rgb(1));
-    EXPECT_GE(*std::max_element(density.majorants.bounds.begin(), density.majorants.bounds.end()), 14);
+    EXPECT_GE(*std::max_element(density.majorants.bounds.begin(), density.majorants.bounds.end()),
+              14);
     EXPECT_EQ(density.lower, glm::dvec3(-0.5));
     EXPECT_EQ(medium_error("\"string type\" \"rgbgrid\""),
               "medium \"m\" needs a parameter \"rgb sigma_a\" or \"rgb sigma_s\"");
-    EXPECT_EQ(medium_error("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [ 1 1 1 ] \"rgb Le\" [ 1 1 1 ]"),
-              "medium \"m\" has \"rgb Le\" without \"rgb sigma_a\" (expected both)");
+    EXPECT_EQ(
+        medium_error("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [ 1 1 1 ] \"rgb Le\" [ 1 1 1 ]"),
+        "medium \"m\" has \"rgb Le\" without \"rgb sigma_a\" (expected both)");
     EXPECT_EQ(medium_error("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [ 1 -1 1 ]"),
               "parameter \"rgb sigma_s\" is -1 at voxel (0, 0, 0) (expected a value >= 0)");
 }
 
 TEST(Homogeneous, PresetsAreInPerMillimetre) {
-    const Medium apple = read_one("\"string type\" \"homogeneous\" \"string preset\" \"Apple\" \"float scale\" 10");
+    const Medium apple =
+        read_one("\"string type\" \"homogeneous\" \"string preset\" \"Apple\" \"float scale\" 10");
     EXPECT_TRUE(is_near(apple.sigma_a, Rgb(0.03, 0.034, 0.46)));
     EXPECT_TRUE(is_near(apple.sigma_s, Rgb(22.9, 23.9, 19.7)));
-    EXPECT_TRUE(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Pear\"")
-                    .starts_with("parameter \"string preset\" is \"Pear\" (expected one of Apple, Chicken1, "));
-    EXPECT_EQ(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Coke\" \"rgb sigma_a\" [ 1 1 1 ]"),
-              "unused parameter \"rgb sigma_a\" of medium \"m\"");
+    EXPECT_TRUE(
+        medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Pear\"")
+            .starts_with(
+                "parameter \"string preset\" is \"Pear\" (expected one of Apple, Chicken1, "));
+    EXPECT_EQ(
+        medium_error(
+            "\"string type\" \"homogeneous\" \"string preset\" \"Coke\" \"rgb sigma_a\" [ 1 1 1 ]"),
+        "unused parameter \"rgb sigma_a\" of medium \"m\"");
 }
 
 TEST(Exponential, FallsOffWithHeightOrRadius) {
-    const Medium plane = read_one("\"string type\" \"exponential\" \"float scaleheight\" 8 \"vector3 up\" [ 0 0 2 ] "
-                                  "\"point3 origin\" [ 1 2 3 ]");
+    const Medium plane =
+        read_one("\"string type\" \"exponential\" \"float scaleheight\" 8 \"vector3 up\" [ 0 0 2 ] "
+                 "\"point3 origin\" [ 1 2 3 ]");
     const auto& flat = std::get<ExponentialDensity>(plane.density);
     EXPECT_FALSE(flat.is_spherical);
     EXPECT_EQ(flat.scale_height, 8);
     EXPECT_EQ(flat.up, glm::dvec3(0, 0, 1));
     EXPECT_EQ(flat.origin, glm::dvec3(1, 2, 3));
-    const Medium planet = read_one("\"string type\" \"exponential\" \"float radius\" 6360 \"point3 center\" [ 0 -1 0 ]");
+    const Medium planet = read_one(
+        "\"string type\" \"exponential\" \"float radius\" 6360 \"point3 center\" [ 0 -1 0 ]");
     const auto& round = std::get<ExponentialDensity>(planet.density);
     EXPECT_TRUE(round.is_spherical);
     EXPECT_EQ(round.radius, 6360);
@@ -152,11 +164,13 @@ TEST(PhaseFunction, HasFourKinds) {
     EXPECT_EQ(phase("\"henyey-greenstein\" \"float g\" -1").g, -1);
     const std::string medium = "\"string type\" \"homogeneous\" \"string phase\" ";
     EXPECT_EQ(medium_error(medium + "\"schlick\" \"float g\" 0.95"),
-              "parameter \"float g\" is 0.95 (expected |g| < 0.938, where k = 1.55 g - 0.55 g^3 is below 1; or give "
+              "parameter \"float g\" is 0.95 (expected |g| < 0.938, where k = 1.55 g - 0.55 g^3 is "
+              "below 1; or give "
               "\"float k\")");
     EXPECT_EQ(medium_error(medium + "\"schlick\" \"float k\" 1"),
               "parameter \"float k\" is 1 (expected a value in (-1, 1))");
-    EXPECT_EQ(medium_error(medium + "\"rayleigh\" \"float g\" 0.5"), "unused parameter \"float g\" of medium \"m\"");
+    EXPECT_EQ(medium_error(medium + "\"rayleigh\" \"float g\" 0.5"),
+              "unused parameter \"float g\" of medium \"m\"");
 }
 
 } // namespace

@@ -99,7 +99,9 @@ std::string write_vdb(const std::vector<WrittenGrid>& grids, bool is_seekable) {
         return stream.str();
     }
     struct SeekableArchive : openvdb::io::Archive {
-        void write_to(std::ostream& os, const openvdb::GridPtrVec& all) const { Archive::write(os, all, true); }
+        void write_to(std::ostream& os, const openvdb::GridPtrVec& all) const {
+            Archive::write(os, all, true);
+        }
     };
     SeekableArchive().write_to(stream, made);
     return stream.str();

@@ -16,8 +16,8 @@ struct WrittenGrid {
     Type type = Type::float32;
     Class grid_class = Class::fog;
     double background = 0;
-    std::vector<std::pair<glm::ivec3, double>> voxels;  ///< Active.
-    std::vector<std::pair<VoxelBox, double>> boxes;     ///< Active; tiles where they hold whole nodes.
+    std::vector<std::pair<glm::ivec3, double>> voxels; ///< Active.
+    std::vector<std::pair<VoxelBox, double>> boxes; ///< Active; tiles where they hold whole nodes.
     glm::dmat4 world_from_index{1};
     bool is_frustum = false;
 };
