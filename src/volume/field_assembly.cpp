@@ -40,6 +40,7 @@ Grid assemble_grid(const VdbTree& tree, const FieldRequest& request) {
     for (const VdbTile& tile : tree.tiles)
         box = box.joined(box_of(tile.first_brick, tile.edge));
     GridBuilder builder(box, request.max_voxels);
+    builder.reserve(tree.leaves.size());
     for (const VdbTile& tile : tree.tiles) {
         const float value = checked(tile.value, kBrickSize * tile.first_brick, request);
         each_brick_of(box_of(tile.first_brick, tile.edge),

@@ -154,7 +154,8 @@ Grid GridBuilder::finish() {
     const auto is_empty = [](std::uint32_t x) { return x == Grid::empty; };
     if (std::all_of(grid_.brick_index.begin(), grid_.brick_index.end(), is_empty))
         grid_ = Grid{.is_half = true};
-    grid_.voxels.shrink_to_fit();
+    if (grid_.voxels.capacity() / 5 * 4 > grid_.voxels.size())
+        grid_.voxels.shrink_to_fit(); // which copies
     tile_numbers_.clear();
     return std::exchange(grid_, Grid{});
 }
@@ -163,6 +164,8 @@ Grid make_dense_grid(std::span<const float> values, const glm::ivec3& count) {
     TYNDALL_ASSERT(values.size() == std::size_t(count.x) * count.y * count.z);
     const VoxelBox box{glm::ivec3(0), count - 1};
     GridBuilder builder(box);
+    const glm::u64vec3 bricks((count + kBrickSize - 1) / kBrickSize);
+    builder.reserve(bricks.x * bricks.y * bricks.z);
     std::array<float, kBrickVoxels> brick_values;
     each_brick_of(box, [&](const glm::ivec3& brick) {
         brick_values.fill(0);

@@ -107,6 +107,9 @@ class GridBuilder {
     /// @throws Error (failed)  the box has more than max_index bricks.
     explicit GridBuilder(const VoxelBox& box, std::uint64_t max_voxels = default_max_voxels);
 
+    /// Makes room for as many bricks with voxels.
+    void reserve(std::size_t bricks) { grid_.voxels.reserve(bricks * kBrickVoxels); }
+
     /// Values of a brick, counted from the origin as in Grid::each_brick; it must touch the box.
     /// Finite.
     /// @throws Error (failed)  more than max_voxels were stored.

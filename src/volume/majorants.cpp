@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,9 +32,35 @@ class CellRaiser {
   public:
     explicit CellRaiser(MajorantGrid& cells) : cells_(cells) {}
 
-    void raise(const glm::ivec3& lower, const glm::ivec3& upper, float value) {
-        const glm::ivec3 first = (lower - cells_.lower - 1) / cells_.size;
-        const glm::ivec3 last = (upper - cells_.lower) / cells_.size;
+    /// Divisions are dear: one brick at a time.
+    void raise(const glm::ivec3& brick, std::span<const float, kBrickVoxels> values) {
+        std::array<glm::ivec3, kBrickSize> first, last;
+        for (int i = 0; i < kBrickSize; ++i) {
+            first[i] = first_cell(kBrickSize * brick + i);
+            last[i] = last_cell(kBrickSize * brick + i);
+        }
+        for (int i = 0; i < kBrickVoxels; ++i) {
+            const int x = i & 7, y = i >> 3 & 7, z = i >> 6;
+            if (values[i] > 0)
+                raise_cells({first[x].x, first[y].y, first[z].z}, {last[x].x, last[y].y, last[z].z},
+                            values[i]);
+        }
+    }
+    void raise(const glm::ivec3& brick, float value) {
+        raise_cells(first_cell(kBrickSize * brick),
+                    last_cell(kBrickSize * brick + (kBrickSize - 1)), value);
+    }
+
+  private:
+    // Voxels beyond the support are 0: their cells are not used, and need not be there.
+    glm::ivec3 first_cell(const glm::ivec3& voxel) const {
+        return (voxel - cells_.lower - 1) / cells_.size;
+    }
+    glm::ivec3 last_cell(const glm::ivec3& voxel) const {
+        return (voxel - cells_.lower) / cells_.size;
+    }
+
+    void raise_cells(const glm::ivec3& first, const glm::ivec3& last, float value) {
         for (int z = first.z; z <= last.z; ++z)
             for (int y = first.y; y <= last.y; ++y)
                 for (int x = first.x; x <= last.x; ++x) {
@@ -43,7 +70,6 @@ class CellRaiser {
                 }
     }
 
-  private:
     MajorantGrid& cells_;
 };
 
@@ -107,17 +133,8 @@ MajorantGrid build_majorants(const Grid& grid, int size) {
     TYNDALL_ASSERT(cell_count(cells) <= max_majorant_cells);
     cells.bounds.assign(cell_count(cells), 0.0f);
     CellRaiser raiser(cells);
-    grid.each_brick(
-        [&](const glm::ivec3& brick, std::span<const float, kBrickVoxels> values) {
-            for (int i = 0; i < kBrickVoxels; ++i) {
-                if (!(values[i] > 0)) continue;
-                const glm::ivec3 voxel = brick_voxel(brick, i);
-                raiser.raise(voxel, voxel, values[i]);
-            }
-        },
-        [&](const glm::ivec3& brick, float value) {
-            raiser.raise(kBrickSize * brick, kBrickSize * brick + (kBrickSize - 1), value);
-        });
+    grid.each_brick([&](const glm::ivec3& brick, auto values) { raiser.raise(brick, values); },
+                    [&](const glm::ivec3& brick, float value) { raiser.raise(brick, value); });
     return cells;
 }
 

@@ -55,9 +55,7 @@ TEST(VolumeMedium, EmitsByTemperature) {
     WrittenGrid moved = heat; // the same, with voxels half as long
     moved.name = "moved";
     moved.voxels.clear();
-    for (int z = 0; z < 8; ++z)
-        for (int y = 0; y < 8; ++y)
-            moved.boxes.push_back({{{-16, -8, -8}, {31, 23, 23}}, 3.0});
+    moved.boxes = {{{{-16, -8, -8}, {31, 23, 23}}, 3.0}};
     moved.world_from_index[0][0] /= 2;
     folder.write("a.vdb", write_vdb({density_grid(), heat, moved}));
     const std::string parameters =
@@ -101,11 +99,6 @@ TEST(VolumeMedium, ErrorsHaveThePlaceInTheScene) {
                     "name of a file)"});
     EXPECT_EQ(error("\"nanovdb\" \"string filename\" \"a.vdb\" \"string density\" \"density\""),
               Lines{"scene.pbrt:2:71: error: unused parameter \"string density\" of medium \"m\""});
-    WrittenGrid grid = density_grid();
-    grid.world_from_index[0][0] = 1e-200;
-    folder.write("flat.vdb", write_vdb({grid}));
-    EXPECT_EQ(error("\"vdb\" \"string filename\" \"flat.vdb\""),
-              error("\"vdb\" \"string filename\" \"flat.vdb\""));
 }
 
 } // namespace
