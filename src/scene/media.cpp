@@ -2,22 +2,10 @@
 
 #include "scene/colours.h"
 #include "scene/grid_media.h"
+#include "scene/phases.h"
 #include "scene/type_names.h"
 
 namespace tyndall {
-namespace {
-
-PhaseFunction read_phase_function(Parameters& parameters) {
-    static const TypeNames names{
-        "phase function", {"henyey-greenstein"}, {"schlick", "rayleigh", "mie", "isotropic"}};
-    const std::string kind = parameters.get_string("phase", "henyey-greenstein");
-    check_type(names, kind, parameters.where(), parameters.diagnostics());
-    return {.kind = PhaseFunction::Kind::henyey_greenstein,
-            .g = parameters.get_float("g", 0, require::cosine)};
-}
-
-} // namespace
-
 Medium read_medium(const std::string& name, Parameters& parameters,
                    const glm::dmat4& world_from_medium, InputFiles& files) {
     static const TypeNames names{"medium",
@@ -32,13 +20,18 @@ Medium read_medium(const std::string& name, Parameters& parameters,
     if (!type || !check_type(names, type_name, parameters.where(), parameters.diagnostics())) {
         return medium;
     }
-    parameters.reject("string", "preset");
     const double scale = parameters.get_float("scale", 1, require::non_negative);
-    medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
-    medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
+    if (const std::string preset = parameters.get_string("preset", ""); preset == "air") {
+        medium.sigma_a = Rgb(0);
+        medium.sigma_s = air_scattering() * scale;
+    } else {
+        if (!preset.empty()) parameters.reject("string", "preset");
+        medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
+        medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
+    }
     const std::optional<Rgb> emission = read_light_colour(parameters, "Le", files);
     medium.emission = emission.value_or(Rgb(0));
-    medium.phases.front() = read_phase_function(parameters);
+    medium.phases = read_phases(parameters, files);
     if (type_name == "uniformgrid") {
         read_uniform_grid(parameters, medium);
     } else {

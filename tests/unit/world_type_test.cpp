@@ -144,8 +144,6 @@ TEST(MediumType, ChecksItsParameters) {
               "parameter \"rgb sigma_a\" is -1 (expected a value >= 0)");
     EXPECT_EQ(world_error(medium + "\"string preset\" \"Apple\""),
               "parameter \"string preset\" of medium \"a\" is not supported yet");
-    EXPECT_EQ(world_error(medium + "\"string phase\" \"mie\""),
-              "phase function \"mie\" is not supported yet");
     EXPECT_EQ(world_error("MakeNamedMedium \"a\""),
               "medium \"a\" needs a parameter \"string type\"");
     EXPECT_EQ(world_error("MakeNamedMedium \"a\" \"string type\" \"fog\""),
