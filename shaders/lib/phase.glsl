@@ -2,7 +2,8 @@
 //
 // Angles are between the directions of travel before and after: mu = 1 is forward, g > 0 scatters
 // forward. Densities are per steradian and integrate to 1, so value and pdf are the same number.
-// A deflection is given by its complements 1 - mu and 1 + mu: the one that is small has all its digits.
+// A deflection is given by its complements 1 - mu and 1 + mu: the one that is small has all its
+// digits.
 #ifndef TYNDALL_PHASE_GLSL
 #define TYNDALL_PHASE_GLSL
 
@@ -36,12 +37,12 @@ vec2 sample_schlick_complements(float k, float xi) {
 }
 
 /// Likewise of Rayleigh's: the CDF gives mu^3 + 3 mu = 8 xi - 4 = 2 z; Cardano's solution is
-/// w - 1 / w with w^3 = z + sqrt(z^2 + 1), here without its cancellation. Relative error of mu below
-/// 1e-6, also near 0.
+/// w - 1 / w with w^3 = z + sqrt(z^2 + 1), here without its cancellation. Relative error of mu
+/// below 1e-6, also near 0.
 vec2 sample_rayleigh_complements(float xi) {
     const float z = 4.0 * xi - 2.0;
     const float cube = abs(z) + sqrt(z * z + 1.0); // in [1, 2 + sqrt(5)]
-    const float guess = pow(cube, 1.0 / 3.0);      // good to 2^-11 at worst: Newton's step squares that
+    const float guess = pow(cube, 1.0 / 3.0); // good to 2^-11 at worst: Newton's step squares that
     const float w = guess - (guess - cube / (guess * guess)) * (1.0 / 3.0);
     const float mu = clamp(2.0 * z / (w * w + 1.0 + 1.0 / (w * w)), -1.0, 1.0);
     return vec2(1.0 - mu, 1.0 + mu);
@@ -53,9 +54,9 @@ bool is_delta(float parameter) {
     return 1.0 - abs(parameter) < 1e-6;
 }
 
-/// Densities of scattering from direction of travel `from` to `to`. |from - to|^2 / 2 is 1 - mu without its
-/// cancellation, and |from + to|^2 / 2 is 1 + mu: they are formed from the one that is small where the lobe
-/// is high.
+/// Densities of scattering from direction of travel `from` to `to`. |from - to|^2 / 2 is 1 - mu
+/// without its cancellation, and |from + to|^2 / 2 is 1 + mu: they are formed from the one that is
+/// small where the lobe is high.
 float evaluate_hg(float g, vec3 from, vec3 to) {
     // 1 + g^2 - 2 g mu
     const float a = abs(g);
@@ -87,7 +88,8 @@ vec3 deflect_by(vec3 from, vec2 complements, float azimuth) {
     return deflect(from, mu, sqrt(complements.x * complements.y), azimuth);
 }
 
-/// Whether a phase function is of the kind; known when the pipeline is built if the scene has only one.
+/// Whether a phase function is of the kind; known when the pipeline is built if the scene has only
+/// one.
 bool is_phase(uint kind, uint wanted) {
     return phases == 1u << wanted || ((phases >> wanted & 1u) != 0u && kind == wanted);
 }

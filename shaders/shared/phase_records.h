@@ -6,7 +6,8 @@
 
 TYNDALL_SHARED_BEGIN
 
-// MediumRecord::phase and PhaseComponentRecord::phase: a kind above PHASE_KIND_SHIFT, a texel below.
+// MediumRecord::phase and PhaseComponentRecord::phase: a kind above PHASE_KIND_SHIFT, a texel
+// below.
 TYNDALL_CONSTANT uint PHASE_KIND_SHIFT = 29u;
 TYNDALL_CONSTANT uint PHASE_TEXEL_MASK = 0x1FFFFFFFu;
 TYNDALL_CONSTANT uint PHASE_HENYEY_GREENSTEIN = 0u; // parameter: g
@@ -23,10 +24,10 @@ struct PhaseComponentRecord {
     uint phase; ///< PHASE_*, not a mixture.
 };
 
-/// A table (phase/phase_table.h), followed by its nodes, from forward to backward, and by the CDF at them:
-/// node: place, value rgb [1/sr]; place is 1 - mu up to 1, and from there -(1 + mu), so that both ends
-/// keep their digits
-/// CDF: probability, by channel, of scattering by less than the angle of the node | unused
+/// A table (phase/phase_table.h), followed by its nodes, from forward to backward, and by the CDF
+/// at them: node: place, value rgb [1/sr]; place is 1 - mu up to 1, and from there -(1 + mu), so
+/// that both ends keep their digits CDF: probability, by channel, of scattering by less than the
+/// angle of the node | unused
 struct PhaseTableRecord {
     uint node_count;
     uint pad0;

@@ -74,12 +74,11 @@ LightSample light_in_medium(Path p, Medium medium) {
     return light;
 }
 
-/// Scatters a path that collided at its origin. The phase function of the hero is sampled exactly: no
-/// weight, but for what tells channels apart (lib/medium.glsl).
+/// Scatters a path that collided at its origin. The phase function of the hero is sampled exactly:
+/// no weight, but for what tells channels apart (lib/medium.glsl).
 void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
     const vec3 incoming = p.direction;
-    p.direction =
-        sample_phase(medium, p.hero, incoming, unit_float(words.y), unit_float(words.z));
+    p.direction = sample_phase(medium, p.hero, incoming, unit_float(words.y), unit_float(words.z));
     if ((lights & LIGHTS_AREA) != 0u || has_chromatic_phases != 0u) {
         const vec3 value = evaluate_phase(medium, incoming, p.direction);
         p.pdf = phase_density(value, p.r);

@@ -1,7 +1,8 @@
 // The phase function of a medium: one in closed form, a table, or a mixture of such.
 //
-// Where channels have functions of their own, the hero's is sampled. Values are by channel; each is the density
-// with which that channel would have drawn the direction as a hero (lib/medium.glsl on r).
+// Where channels have functions of their own, the hero's is sampled. Values are by channel; each is
+// the density with which that channel would have drawn the direction as a hero (lib/medium.glsl on
+// r).
 #ifndef TYNDALL_PHASES_GLSL
 #define TYNDALL_PHASES_GLSL
 
@@ -18,7 +19,8 @@ float segment_width(float place0, float place1) {
     return place1 - place0 + (place0 >= 0.0 && place1 < 0.0 ? 2.0 : 0.0);
 }
 
-/// By channel, linear between nodes. Nodes are at known angles: the first guess is right or next to it.
+/// By channel, linear between nodes. Nodes are at known angles: the first guess is right or next to
+/// it.
 vec3 evaluate_table(uint table, vec2 complements) {
     const uint nodes = table + 1u;
     const uint last = fetch_scene(table).x - 2u;
@@ -41,7 +43,7 @@ vec3 evaluate_table(uint table, vec2 complements) {
 vec2 sample_table(uint table, uint channel, float xi) {
     const uint nodes = table + 1u;
     const uint node_count = fetch_scene(table).x;
-    const float target = 1.0 - xi; // exact; the CDF runs from forward to backward
+    const float target = 1.0 - xi;         // exact; the CDF runs from forward to backward
     uint low = 0u, high = node_count - 1u; // cdf[low] <= target < cdf[high]
     do {
         const uint middle = (low + high) / 2u;
@@ -101,11 +103,10 @@ vec3 evaluate_phase(Medium medium, vec3 from, vec3 to) {
     return sum;
 }
 
-/// Draws the direction after scattering. Its density, for the hero's channel, is evaluate_phase. In a mixture the
-/// same number chooses the component and then, stretched, the angle.
+/// Draws the direction after scattering. Its density, for the hero's channel, is evaluate_phase. In
+/// a mixture the same number chooses the component and then, stretched, the angle.
 vec3 sample_phase(Medium medium, uint hero, vec3 from, float xi, float azimuth) {
-    if (phases == 0u)
-        return deflect(from, 2.0 * xi - 1.0, 2.0 * sqrt(xi * (1.0 - xi)), azimuth);
+    if (phases == 0u) return deflect(from, 2.0 * xi - 1.0, 2.0 * sqrt(xi * (1.0 - xi)), azimuth);
     const uint channel = has_chromatic_phases != 0u ? hero : 0u;
     uint phase = medium.phase;
     float parameter = medium.phase_parameter;
@@ -122,8 +123,7 @@ vec3 sample_phase(Medium medium, uint hero, vec3 from, float xi, float azimuth) 
         phase = c.phase;
         parameter = c.parameter;
     }
-    if (is_delta_phase(phase >> PHASE_KIND_SHIFT, parameter))
-        return parameter > 0.0 ? from : -from;
+    if (is_delta_phase(phase >> PHASE_KIND_SHIFT, parameter)) return parameter > 0.0 ? from : -from;
     return deflect_by(from, sample_single_phase(phase, parameter, channel, xi), azimuth);
 }
 

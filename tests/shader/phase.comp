@@ -3,8 +3,9 @@
 #include "kernel.glsl"
 #include "wavefront/phases.glsl"
 
-// Phase functions: push.media is the word of a MediumRecord, number() its parameter, push.shapes the hero; their own
-// input starts at texel push.lights. Variant 1 is the textbook's form of Henyey and Greenstein's.
+// Phase functions: push.media is the word of a MediumRecord, number() its parameter, push.shapes
+// the hero; their own input starts at texel push.lights. Variant 1 is the textbook's form of Henyey
+// and Greenstein's.
 
 float textbook_cosine(float g, float xi) {
     const float s = (1.0 - g * g) / (1.0 - g + 2.0 * g * xi);
@@ -49,8 +50,8 @@ void main() {
     } else { // a random direction, from texel 0, with its density
         const uvec4 words = random_block(push.seed, 0u, global_index(), 0u, 0u);
         const vec3 from = input_texel(push.lights).xyz;
-        const vec3 to = sample_phase(medium(), push.shapes, from, unit_float(words.x),
-                                     unit_float(words.y));
+        const vec3 to =
+            sample_phase(medium(), push.shapes, from, unit_float(words.x), unit_float(words.y));
         emit(i, vec4(to, evaluate_phase(medium(), from, to)[push.shapes]));
     }
 }
