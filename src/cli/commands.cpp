@@ -1,4 +1,5 @@
 #include "cli/options.h"
+#include "cli/phase_report.h"
 #include "core/error.h"
 #include "gpu/context.h"
 #include "render/effects.h"
@@ -124,11 +125,13 @@ int run_info(const InfoOptions& options) {
         list.push_back({{"effect", e.name}, {"value", e.value}, {"called_for_by", e.called_for}});
         width = std::max(width, e.name.size());
     }
-    const json info{{"scene", scene.filename},
-                    {"width", scene.film.bounds.width()},
-                    {"height", scene.film.bounds.height()},
-                    {"spp", scene.samples_per_pixel},
-                    {"effects", list}};
+    if (!options.phase_plot.empty()) plot_phases(scene, options.phase_plot);
+    json info{{"scene", scene.filename},
+              {"width", scene.film.bounds.width()},
+              {"height", scene.film.bounds.height()},
+              {"spp", scene.samples_per_pixel},
+              {"effects", list}};
+    if (options.phase) info["phases"] = describe_phases(scene);
     if (options.json) {
         std::printf("%s\n", info.dump(2).c_str());
         return 0;
@@ -138,6 +141,7 @@ int run_info(const InfoOptions& options) {
     for (const Effect& e : effects.list)
         std::printf("  %-*s  %-12s  %s\n", static_cast<int>(width), e.name.c_str(),
                     e.value == "no" ? "not simulated" : e.value.c_str(), e.called_for.c_str());
+    if (options.phase) print_phases(scene);
     return 0;
 }
 

@@ -72,6 +72,10 @@ void add_rest(CLI::App& app, InfoOptions& info, CompareOptions& compare, Devices
     CLI::App* command = app.add_subcommand("info", "Tell what a scene calls for; renders nothing");
     add_scene_options(*command, info.scene);
     command->add_flag("--json", info.json, "Print as JSON");
+    command->add_flag("--phase", info.phase,
+                      "Tell mean cosines of phase functions, and efficiencies of spheres");
+    command->add_option("--phase-plot", info.phase_plot,
+                        "Write polar plots of phase functions and of their samples (SVG)");
     command->callback([&] { status = run_info(info); });
 
     command = app.add_subcommand("compare", "Compare two images");

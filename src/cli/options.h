@@ -50,6 +50,8 @@ struct VerifyOptions {
 struct InfoOptions {
     SceneOptions scene;
     bool json = false;
+    bool phase = false;     ///< Tell of phase functions.
+    std::string phase_plot; ///< File for their plots, or "".
 };
 
 struct CompareOptions {

@@ -37,9 +37,9 @@ struct Member {
 
 Member make_member(const Optics& optics, double radius, double number) {
     const double x = optics.wavenumber * radius;
-    if (!(x >= 1e-6 && x <= 2e4))
+    if (!(x >= 1e-6 && x <= 1e4))
         throw Error(ExitStatus::bad_input,
-                    "a size parameter 2 pi r / wavelength is outside the range [1e-6, 2e4]");
+                    "a size parameter 2 pi r / wavelength is outside the range [1e-6, 1e4]");
     return {radius, number, MieSphere(x, optics.index).efficiencies()};
 }
 

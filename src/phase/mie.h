@@ -9,7 +9,7 @@ namespace tyndall {
 
 struct MieParameters {
     /// Of the spheres [um]; with a distribution of sizes the median. The radius or, below, the
-    /// distribution must keep 2 pi r / wavelength within [1e-6, 2e4].
+    /// distribution must keep 2 pi r / wavelength within [1e-6, 1e4].
     double radius_um = 1;
     /// Standard deviation of ln(radius): 0 for spheres of one size, else their number is lognormal
     /// in the radius; at most 1.

@@ -155,6 +155,29 @@ Rgb evaluate_phase(const std::vector<PhaseFunction>& mixture, double one_minus_c
     return value;
 }
 
+Rgb mean_cosine(const PhaseFunction& phase) {
+    const double k = phase.k, k2 = k * k;
+    switch (phase.kind) {
+    case Kind::rayleigh:
+        return Rgb(0);
+    case Kind::mie:
+        return {phase.table->mean_cosine[0], phase.table->mean_cosine[1],
+                phase.table->mean_cosine[2]};
+    case Kind::schlick: // its closed form cancels where k is small
+        return Rgb(std::abs(k) < 0.01 ? k * (2.0 / 3 + k2 * (2.0 / 15 + k2 * 2 / 35))
+                                      : 1 / k - (1 - k2) / k2 * std::atanh(k));
+    default:
+        return Rgb(phase.g);
+    }
+}
+
+Rgb mean_cosine(const std::vector<PhaseFunction>& mixture) {
+    Rgb sum(0);
+    for (const PhaseFunction& phase : mixture)
+        sum += phase.weight * mean_cosine(phase);
+    return sum;
+}
+
 double one_minus_cosine(const dvec3& a, const dvec3& b) {
     const dvec3 difference = a - b;
     return glm::dot(difference, difference) / 2;

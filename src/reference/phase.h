@@ -36,6 +36,10 @@ ScatteringAngle sample_angle(const std::vector<PhaseFunction>& mixture, double x
 Rgb evaluate_phase(const PhaseFunction& phase, double one_minus_cosine);
 Rgb evaluate_phase(const std::vector<PhaseFunction>& mixture, double one_minus_cosine);
 
+/// Mean cosine by channel, in closed form or that of the table.
+Rgb mean_cosine(const PhaseFunction& phase);
+Rgb mean_cosine(const std::vector<PhaseFunction>& mixture);
+
 /// 1 - cos of the angle between unit vectors, without cancellation.
 double one_minus_cosine(const dvec3& a, const dvec3& b);
 

@@ -4,6 +4,7 @@
 #include "scene/colours.h"
 #include "scene/grid_media.h"
 #include "scene/media_presets.h"
+#include "scene/phases.h"
 #include "scene/transform.h"
 #include "scene/type_names.h"
 #include "scene/volume_media.h"
@@ -14,34 +15,13 @@
 namespace tyndall {
 namespace {
 
-/// k of Schlick's phase function, given or fitted to g.
-double read_schlick_k(Parameters& parameters) {
-    constexpr Requirement is_k{[](double x) { return x > -1 && x < 1; }, "a value in (-1, 1)"};
-    if (parameters.find("float", "k")) return parameters.get_float("k", 0, is_k);
-    // Blasi, Le Saec and Schlick, A Rendering Algorithm for Discrete Volume Density Objects (1993).
-    constexpr Requirement is_fitted{
-        [](double g) { return std::abs(1.55 * g - 0.55 * g * g * g) < 1; },
-        "|g| < 0.938, where k = 1.55 g - 0.55 g^3 is below 1; or give \"float k\""};
-    const double g = parameters.get_float("g", 0, is_fitted);
-    return 1.55 * g - 0.55 * g * g * g;
-}
-
-PhaseFunction read_phase_function(Parameters& parameters) {
-    using Kind = PhaseFunction::Kind;
-    static const TypeNames names{
-        "phase function", {"henyey-greenstein", "isotropic", "schlick", "rayleigh"}, {"mie"}};
-    const std::string kind = parameters.get_string("phase", "henyey-greenstein");
-    check_type(names, kind, parameters.where(), parameters.diagnostics());
-    if (kind == "schlick") return {.kind = Kind::schlick, .k = read_schlick_k(parameters)};
-    if (kind == "rayleigh") return {.kind = Kind::rayleigh};
-    if (kind == "isotropic") return {.kind = Kind::henyey_greenstein};
-    return {.kind = Kind::henyey_greenstein, .g = parameters.get_float("g", 0, require::cosine)};
-}
-
 void read_coefficients(Parameters& parameters, Medium& medium, InputFiles& files) {
     const double scale = parameters.get_float("scale", 1, require::non_negative);
     const std::string preset = parameters.get_string("preset", "");
-    if (preset.empty()) {
+    if (preset == "air") {
+        medium.sigma_a = Rgb(0);
+        medium.sigma_s = air_scattering() * scale;
+    } else if (preset.empty()) {
         medium.sigma_a = read_coefficient(parameters, "sigma_a", Rgb(1), files) * scale;
         medium.sigma_s = read_coefficient(parameters, "sigma_s", Rgb(1), files) * scale;
     } else if (const std::optional<MediumPreset> found = find_medium_preset(preset)) {
@@ -49,7 +29,7 @@ void read_coefficients(Parameters& parameters, Medium& medium, InputFiles& files
         medium.sigma_s = found->sigma_s * scale;
     } else {
         parameters.report_value(*parameters.find("string", "preset"), in_quotes(preset),
-                                "one of " + medium_preset_names());
+                                "air, or one of " + medium_preset_names());
     }
 }
 
@@ -107,7 +87,7 @@ Medium read_medium(const std::string& name, Parameters& parameters,
         return medium;
     }
     if (type_name != "homogeneous" && !check_transform(parameters, medium)) return medium;
-    medium.phases.front() = read_phase_function(parameters);
+    medium.phases = read_phases(parameters, files);
     if (type_name == "rgbgrid") {
         read_rgb_grid(parameters, medium);
         parameters.report_unused();

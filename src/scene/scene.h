@@ -9,7 +9,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "phase/phase_table.h"
+#include "phase/mie.h"
 #include "volume/grid.h"
 
 #include <array>
@@ -38,6 +38,7 @@ struct PhaseFunction {
     double g = 0;      ///< henyey_greenstein: mean cosine, in [-1, 1].
     double k = 0;      ///< schlick, in (-1, 1).
     std::shared_ptr<const PhaseTable> table; ///< mie
+    std::array<MieChannel, 3> spheres{};     ///< mie: efficiencies, for who asks.
 };
 
 /// Density that scales the coefficients of a medium, on voxels (uniformgrid, nanovdb, vdb, cloud).

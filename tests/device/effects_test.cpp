@@ -140,11 +140,12 @@ TEST_F(EffectsTest, TheListTellsWhatTheSceneHas) {
     const Scene busy = busy_scene();
     for (const char* name :
          {"interfaces", "diffuse surfaces", "emitting surfaces", "shading normals", "media",
-          "scattering", "anisotropic phase", "spectral MIS", "environment", "area lights"})
+          "scattering", "spectral MIS", "environment", "area lights"})
         EXPECT_EQ(effect(busy, name), "yes") << name;
     for (const char* name : {"instances", "emission of media", "distant lights", "point lights",
                              "spot lights", "depth of field", "radiance limit"})
         EXPECT_EQ(effect(busy, name), "no") << name;
+    EXPECT_EQ(effect(busy, "phase functions"), "Henyey-Greenstein");
     EXPECT_EQ(effect(busy, "geometry"), "hierarchy");
     EXPECT_EQ(effect(busy, "channels"), "3");
     EXPECT_EQ(effect(plain_scene(), "geometry"), "one box");

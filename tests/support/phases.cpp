@@ -2,7 +2,6 @@
 
 #include "phase/mie.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace tyndall::support {
@@ -43,29 +42,6 @@ PhaseFunction perturbed(const PhaseFunction& mie, double share) {
     PhaseFunction result = mie;
     result.table = std::make_shared<const PhaseTable>(make_phase_table(value));
     return result;
-}
-
-double mean_cosine(const PhaseFunction& phase) {
-    const double k = phase.k;
-    switch (phase.kind) {
-    case PhaseFunction::Kind::henyey_greenstein:
-        return phase.g;
-    case PhaseFunction::Kind::rayleigh:
-        return 0;
-    case PhaseFunction::Kind::mie:
-        return phase.table->mean_cosine[0];
-    case PhaseFunction::Kind::schlick:
-        break;
-    }
-    if (std::abs(k) < 1e-3) return 2 * k / 3;
-    return 1 / k - (1 - k * k) / (2 * k * k) * std::log((1 + k) / (1 - k));
-}
-
-double mean_cosine(const std::vector<PhaseFunction>& mixture) {
-    double sum = 0;
-    for (const PhaseFunction& phase : mixture)
-        sum += phase.weight * mean_cosine(phase);
-    return sum;
 }
 
 } // namespace tyndall::support

@@ -23,8 +23,4 @@ PhaseFunction weighted(double weight, PhaseFunction phase);
 /// cos(theta).
 PhaseFunction perturbed(const PhaseFunction& mie, double share);
 
-/// Closed form, or that of the table (first channel).
-double mean_cosine(const PhaseFunction& phase);
-double mean_cosine(const std::vector<PhaseFunction>& mixture);
-
 } // namespace tyndall::support

@@ -143,8 +143,6 @@ TEST(MediumType, ChecksItsParameters) {
               "parameter \"float g\" is 1.5 (expected a value in [-1, 1])");
     EXPECT_EQ(world_error(medium + "\"rgb sigma_a\" [ 0 -1 0 ]"),
               "parameter \"rgb sigma_a\" is -1 (expected a value >= 0)");
-    EXPECT_EQ(world_error(medium + "\"string phase\" \"mie\""),
-              "phase function \"mie\" is not supported yet");
     EXPECT_EQ(world_error("MakeNamedMedium \"a\""),
               "medium \"a\" needs a parameter \"string type\"");
     EXPECT_EQ(world_error("MakeNamedMedium \"a\" \"string type\" \"fog\""),
