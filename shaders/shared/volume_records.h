@@ -76,8 +76,9 @@ struct ExponentialRecord {
 };
 TYNDALL_CONSTANT uint EXPONENTIAL_TEXELS = 5u;
 
-// Emission of a black body: BLACKBODY_ENTRIES texels (rgb, unused) at temperatures spaced evenly in
-// the logarithm from BLACKBODY_MIN to BLACKBODY_MAX kelvin, linear in between; nothing below.
+// Emission of a black body: BLACKBODY_ENTRIES texels (logarithms of rgb, unused) at temperatures
+// spaced evenly in the logarithm from BLACKBODY_MIN to BLACKBODY_MAX kelvin, linear in between (in
+// blue at 500 K, where linear radiances are off by 2e-3, this is by 4e-5); nothing below.
 TYNDALL_CONSTANT uint BLACKBODY_ENTRIES = 4096u;
 TYNDALL_CONSTANT float BLACKBODY_MIN = 100.0f;
 TYNDALL_CONSTANT float BLACKBODY_MAX = 1.0e6f;

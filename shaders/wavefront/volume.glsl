@@ -67,8 +67,10 @@ vec3 blackbody(float kelvin) {
     const float x = log(kelvin / BLACKBODY_MIN) * (float(BLACKBODY_ENTRIES - 1u) / span);
     if (!(x > 0.0)) return vec3(0);
     const uint i = min(uint(x), BLACKBODY_ENTRIES - 2u);
-    return colour(mix(floats(fetch_scene(push.blackbody + i)),
-                      floats(fetch_scene(push.blackbody + i + 1u)), min(x - float(i), 1.0)));
+    const vec3 logarithm =
+        mix(floats(fetch_scene(push.blackbody + i)), floats(fetch_scene(push.blackbody + i + 1u)),
+            min(x - float(i), 1.0));
+    return colour(exp(logarithm));
 }
 
 /// A line through a medium whose flights are tracked.

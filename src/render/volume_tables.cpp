@@ -234,7 +234,9 @@ std::vector<glm::vec4> make_blackbody_table() {
         const double share = double(i) / (BLACKBODY_ENTRIES - 1);
         const double kelvin =
             BLACKBODY_MIN * std::pow(double(BLACKBODY_MAX) / BLACKBODY_MIN, share);
-        table.emplace_back(glm::vec3(blackbody_radiance(kelvin)), 0.0f);
+        // What is out of gamut is 0, as good as exp(-90).
+        const Rgb radiance = glm::max(blackbody_radiance(kelvin), std::exp(-90.0));
+        table.emplace_back(glm::vec3(glm::log(radiance)), 0.0f);
     }
     return table;
 }

@@ -60,7 +60,7 @@ class VolumePacker {
     std::vector<shared::MediumRecord> records_;
 };
 
-/// The table of black body emission over log temperature (BLACKBODY_ENTRIES texels).
+/// The table of black body emission (BLACKBODY_ENTRIES texels).
 std::vector<glm::vec4> make_blackbody_table();
 
 } // namespace tyndall
