@@ -68,23 +68,30 @@ ivec3 choose_corner(vec3 index, float u) {
 /// Integral of exp(-h / H) over [0, t] along a line that starts at height h0 and rises by m per
 /// unit. Source: ORACLES 3.1; expm1 form, so that the horizon (m = 0) is no exception.
 float exponential_column(float h0, float m, float scale_height, float t) {
-    const float density = exp(-h0 / scale_height);
-    const float x = m / scale_height; // 1 / length of the fall-off along the line
-    const float xt = x * t;
-    if (!(density > 0.0)) return 0.0;
-    if (abs(xt) < 1e-3) return density * t * (1.0 - xt * (0.5 - xt * (1.0 / 6.0)));
-    return density * (xt > 0.0 ? one_minus_exp(xt) : 1.0 - exp(-xt)) / x;
+    // Seen from the lower end, where the density is greatest, it only falls.
+    const float fall = abs(m) / scale_height; // 1 / length of the fall-off along the line
+    const float greatest = exp(-(m < 0.0 ? h0 + m * t : h0) / scale_height);
+    const float x = fall > 0.0 ? fall * t : 0.0;
+    if (!(greatest > 0.0)) return 0.0;
+    if (x < 1e-3) return greatest * t * (1.0 - x * (0.5 - x * (1.0 / 6.0)));
+    return greatest * one_minus_exp(x) / fall;
 }
 
 /// The distance at which the column is reached; INFINITY if it never is.
 float exponential_column_inverse(float h0, float m, float scale_height, float column) {
-    const float density = exp(-h0 / scale_height);
     const float x = m / scale_height;
-    const float q = column * x / density;
-    if (!(density > 0.0) || !(q < 1.0)) return INFINITY;
+    const float density = exp(-h0 / scale_height);
+    // Column in lengths of the fall-off, over the density at the start, which may be out of range:
+    // a line may come down from far above.
+    const float log_ratio = log(column) + h0 / scale_height;
+    const bool is_in_range = density > 1e-30 && density < 1e30;
+    const float ratio = is_in_range ? column / density : exp(log_ratio);
+    const float q = ratio * x;
+    if (x == 0.0) return ratio;
+    if (abs(q) < 1e-3) return ratio * (1.0 + q * (0.5 + q * (1.0 / 3.0)));
+    if (q >= 1.0) return INFINITY;
     // -log1p(-q) / x
-    if (abs(q) < 1e-3) return column / density * (1.0 + q * (0.5 + q * (1.0 / 3.0)));
-    return -log(1.0 - q) / x;
+    return q > -1e30 ? -log(1.0 - q) / x : (log_ratio + log(-x)) / -x;
 }
 
 #endif
