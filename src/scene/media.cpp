@@ -29,7 +29,7 @@ void read_coefficients(Parameters& parameters, Medium& medium, InputFiles& files
         medium.sigma_s = found->sigma_s * scale;
     } else {
         parameters.report_value(*parameters.find("string", "preset"), in_quotes(preset),
-                                "air, or one of " + medium_preset_names());
+                                "one of air, " + medium_preset_names());
     }
 }
 

@@ -144,6 +144,13 @@ info() {
   says scattering
   expect 0 info "$scenes/fog-room.pbrt" --json
   grep -q '^{' out || fail "no JSON"
+  expect 0 info "$scenes/haze.pbrt" --phase --phase-plot haze.svg
+  for word in rayleigh 'mie, weight 0.5, mean cosine 0.7' Qsca; do says "$word"; done
+  head -c 4 haze.svg | grep -q '<svg' || fail "no plot"
+  expect 0 info "$scenes/haze.pbrt" --phase --json
+  grep -q '"size_parameter"' out || fail "no size parameters"
+  expect 1 info "$scenes/haze.pbrt" --phase-plot no/such/folder/haze.svg
+  says no/such/folder
 }
 
 "$case_name"

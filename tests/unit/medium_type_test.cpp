@@ -121,7 +121,7 @@ TEST(Homogeneous, PresetsAreInPerMillimetre) {
     EXPECT_TRUE(
         medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Pear\"")
             .starts_with(
-                "parameter \"string preset\" is \"Pear\" (expected one of Apple, Chicken1, "));
+                "parameter \"string preset\" is \"Pear\" (expected one of air, Apple, Chicken1, "));
     EXPECT_EQ(
         medium_error(
             "\"string type\" \"homogeneous\" \"string preset\" \"Coke\" \"rgb sigma_a\" [ 1 1 1 ]"),
