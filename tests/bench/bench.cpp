@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "render/renderer.h"
 #include "scene/reader.h"
+#include "volume/majorants.h"
 
 #include <algorithm>
 #include <array>
@@ -55,8 +56,9 @@ gpu::Context& context() {
     return instance;
 }
 
-Scene read_bench_scene(const std::string& name, int size) {
-    Scene scene = read_scene(std::string(TYNDALL_BENCH_SCENES) + "/" + name + ".pbrt");
+/// @param path  in tests/, without its extension.
+Scene read_bench_scene(const std::string& path, int size) {
+    Scene scene = read_scene(std::string(TYNDALL_TEST_SOURCES) + "/" + path + ".pbrt");
     scene.film.width = scene.film.height = size;
     scene.film.bounds = {0, size, 0, size};
     fit_screen_window(scene);
@@ -76,7 +78,7 @@ double variance_per_sample(Renderer& renderer) {
 void fused_ratio(benchmark::State& state) {
     constexpr int size = 256;
     constexpr std::uint32_t samples = 512;
-    Renderer renderer(context(), read_bench_scene("homogeneous-cube", size));
+    Renderer renderer(context(), read_bench_scene("device/pbrt/homogeneous-cube", size));
     FusedCube fused(context(), size);
     renderer.render(0, 8);
     fused.render(1, 0);
@@ -99,7 +101,7 @@ void equal_error(benchmark::State& state) {
     const PbrtFigures& pbrt = kPbrt[static_cast<std::size_t>(state.range(0))];
     constexpr int size = 128;
     const std::uint32_t samples = state.range(0) == 2 ? 16 : state.range(0) > 2 ? 128 : 512;
-    Renderer renderer(context(), read_bench_scene(pbrt.scene, size));
+    Renderer renderer(context(), read_bench_scene(std::string("device/pbrt/") + pbrt.scene, size));
     renderer.render(0, 1);
     const double paths = double(size) * size * samples;
     double best = std::numeric_limits<double>::max(), yardstick = best, paths_walked = 1;
@@ -118,6 +120,34 @@ void equal_error(benchmark::State& state) {
     state.counters["yardstick_cpu_seconds_per_Mpath"] = yardstick_now;
     state.counters["times_pbrt"] = theirs / ours * (yardstick_now / kYardstickThen);
 }
+/// A cloud of 256^3 voxels: CPU time with the cells that choose_majorants takes, over the same with
+/// others.
+void majorant_cells(benchmark::State& state) {
+    constexpr std::uint32_t samples = 8;
+    Scene scene = read_bench_scene("bench/cloud", 96);
+    auto& density = std::get<GridDensity>(scene.media[0].density);
+    const MajorantGrid chosen = density.majorants;
+    const auto cpu = [&](const MajorantGrid& majorants) {
+        density.majorants = majorants;
+        Renderer renderer(context(), scene);
+        renderer.render(0, 1);
+        return cpu_of([&] { renderer.render(0, samples); });
+    };
+    const MajorantGrid sixteen = build_majorants(*density.density, 16);
+    const MajorantGrid global = build_majorants(*density.density, 512);
+    double ours = std::numeric_limits<double>::max(), others = ours, one = ours;
+    for (auto _ : state) {
+        ours = std::min(ours, cpu(chosen));
+        others = std::min(others, cpu(sixteen));
+        one = std::min(one, cpu(global));
+    }
+    state.counters["voxels_per_cell_edge"] = chosen.size;
+    state.counters["cpu_seconds_per_Mpath"] = ours / (96.0 * 96 * samples) * 1e6;
+    state.counters["cells_of_16_over_ours"] = others / ours;
+    state.counters["one_majorant_over_ours"] = one / ours;
+}
+BENCHMARK(majorant_cells)->Iterations(3)->Unit(benchmark::kMillisecond);
+
 BENCHMARK(equal_error)
     ->DenseRange(0, int(kPbrt.size()) - 1)
     ->Iterations(3)
