@@ -1,5 +1,6 @@
 #include "cli/options.h"
 #include "cli/phase_report.h"
+#include "cli/progress_line.h"
 #include "core/error.h"
 #include "gpu/context.h"
 #include "render/effects.h"
@@ -74,8 +75,17 @@ void apply_crop(Scene& scene, const std::string& text) {
 
 } // namespace
 
-Scene load_scene(const SceneOptions& options) {
-    Scene scene = read_scene(options.scene);
+Scene load_scene(const SceneOptions& options, bool quiet) {
+    Scene scene;
+    {
+        ProgressLine line(quiet);
+        constexpr std::uint64_t large = 16u << 20; // takes seconds, if it is a volume
+        scene = read_scene(options.scene, {.on_file = [&](const auto& file, std::uint64_t bytes) {
+                               if (bytes >= large || line.is_due())
+                                   line.print(fmt::format("reading {} ({:.1f} MiB)", file.string(),
+                                                          static_cast<double>(bytes) / (1 << 20)));
+                           }});
+    }
     for (const std::string& warning : scene.warnings)
         std::fprintf(stderr, "%s\n", warning.c_str());
     if (options.size) apply_size(scene, *options.size);
@@ -117,7 +127,7 @@ int run_devices(const DevicesOptions& options) {
 }
 
 int run_info(const InfoOptions& options) {
-    const Scene scene = load_scene(options.scene);
+    const Scene scene = load_scene(options.scene, options.json);
     const Effects effects = compute_effects(scene);
     json list = json::array();
     std::size_t width = 0;

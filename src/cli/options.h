@@ -74,8 +74,8 @@ int run_devices(const DevicesOptions& options);
 /// Parses the command line and runs what it asks for.
 int run(int argc, char** argv);
 
-/// Reads the scene, prints its warnings, and applies the changes. Throws Error (bad usage:
-/// bad_input).
-Scene load_scene(const SceneOptions& options);
+/// Reads the scene, prints its warnings, and applies the changes. Unless `quiet` it tells which
+/// file it is at, if that takes time. Throws Error (bad usage: bad_input).
+Scene load_scene(const SceneOptions& options, bool quiet);
 
 } // namespace tyndall::cli

@@ -91,7 +91,7 @@ void Job::write_images(double render_seconds) {
 }
 
 int Job::run() {
-    scene_ = load_scene(options_.scene);
+    scene_ = load_scene(options_.scene, options_.quiet);
     report_.seconds.scene = seconds_since(start_);
     outputs_ = options_.outputs.empty() ? std::vector{scene_.film.filename} : options_.outputs;
     for (const std::string& output : outputs_)

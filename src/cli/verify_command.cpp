@@ -75,7 +75,7 @@ int run_verify(const VerifyOptions& options) {
     if (options.device.device == "reference")
         throw Error(ExitStatus::bad_input,
                     "verify compares a device with the reference: name a device");
-    const Scene scene = load_scene(options.scene);
+    const Scene scene = load_scene(options.scene, options.quiet);
     const auto samples = static_cast<std::uint32_t>(scene.samples_per_pixel);
     if (samples < options.batches)
         throw Error(

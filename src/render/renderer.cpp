@@ -69,7 +69,8 @@ std::uint32_t Renderer::samples_of(std::uint32_t batches) const {
 
 std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sample,
                                const KeepGoing& keep_going) {
-    TYNDALL_ASSERT(first_sample < end_sample);
+    if (first_sample >= end_sample)
+        throw Error(ExitStatus::failed, "a render needs one sample per pixel or more");
     first_sample_ = first_sample;
     end_sample_ = end_sample;
     health_ = health_before_ = {};

@@ -35,8 +35,9 @@ struct InputFiles::Digest {
     SHA2_CTX context{};
 };
 
-InputFiles::InputFiles(const std::filesystem::path& main_file, std::uint64_t max_bytes)
-    : main_folder_(main_file.parent_path()), max_bytes_(max_bytes),
+InputFiles::InputFiles(const std::filesystem::path& main_file, std::uint64_t max_bytes,
+                       OnFile on_file)
+    : main_folder_(main_file.parent_path()), max_bytes_(max_bytes), on_file_(std::move(on_file)),
       digest_(std::make_unique<Digest>()) {
     SHA256Init(&digest_->context);
 }
@@ -59,6 +60,7 @@ std::string InputFiles::read(const std::filesystem::path& file) {
     std::string bytes = read_bytes(file);
     SHA256Update(&digest_->context, reinterpret_cast<const std::uint8_t*>(bytes.data()),
                  bytes.size());
+    if (on_file_) on_file_(file, bytes.size());
     return file.extension() == ".gz" ? unpack(bytes, file) : bytes;
 }
 

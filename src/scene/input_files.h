@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -12,12 +13,15 @@ namespace tyndall {
 class InputFiles {
   public:
     static constexpr int max_files = 1'000'000;
+    using OnFile = std::function<void(const std::filesystem::path&, std::uint64_t bytes)>;
 
     /// @param main_file  the scene file; names in it and in the files it includes start at its
     /// folder.
     /// @param max_bytes  most bytes that all files may have together, packed and unpacked ones
     /// counted.
-    InputFiles(const std::filesystem::path& main_file, std::uint64_t max_bytes);
+    /// @param on_file    called with each file and its length once it is read; may be empty.
+    InputFiles(const std::filesystem::path& main_file, std::uint64_t max_bytes,
+               OnFile on_file = {});
     ~InputFiles();
     InputFiles(const InputFiles&) = delete;
     InputFiles& operator=(const InputFiles&) = delete;
@@ -42,6 +46,7 @@ class InputFiles {
 
     std::filesystem::path main_folder_;
     std::uint64_t max_bytes_;
+    OnFile on_file_;
     std::uint64_t bytes_ = 0;
     int files_ = 0;
     std::unique_ptr<Digest> digest_;

@@ -8,7 +8,7 @@ namespace tyndall {
 Scene read_scene(const std::filesystem::path& file, const ReadOptions& options) {
     const SourceLocation whole_file{std::make_shared<const std::string>(file.string())};
     Diagnostics diagnostics;
-    InputFiles files(file, options.max_bytes);
+    InputFiles files(file, options.max_bytes, options.on_file);
     TokenStream tokens(files, diagnostics);
     tokens.open(file, {}, TokenStream::FileKind::included);
     diagnostics.throw_if_errors();

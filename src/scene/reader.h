@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 namespace tyndall {
 
@@ -15,6 +16,9 @@ struct ReadOptions {
     /// Most bytes that the files of a scene may have together, packed and unpacked ones counted: a
     /// bound for compressed files that unpack without end.
     std::uint64_t max_bytes = std::uint64_t{4} << 30;
+    /// Called with each file and its length before its contents are made sense of, for progress;
+    /// may be empty.
+    std::function<void(const std::filesystem::path&, std::uint64_t bytes)> on_file;
 };
 
 /// Reads a scene file (.pbrt, .pbrt.gz) and all files that it names.

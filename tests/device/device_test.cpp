@@ -89,6 +89,10 @@ std::vector<stats::PixelSums> device_batches(const Scene& scene, std::uint32_t s
     std::vector<stats::PixelSums> batches;
     for (std::uint32_t i = 0; i < kBatches; ++i) {
         const auto [first, end] = batch_range(samples, i);
+        if (first == end) {
+            ADD_FAILURE() << "a test needs a sample for each of " << kBatches << " batches";
+            break;
+        }
         EXPECT_EQ(renderer.render(first, end), end - first);
         batches.push_back(renderer.read_sums());
     }
