@@ -59,6 +59,8 @@ Scene lit_by(const EmitterCase& c, bool two_sided, bool reverse) {
                .area_light = add_area_light(scene, {5, 6, 8}, two_sided),
                .reverse = reverse},
               facing_down * c.world_from_object);
+    // Some emitters face away, and next to none of their light is seen: the control needs some.
+    add_infinite(scene, Rgb(0.5));
     return scene;
 }
 
