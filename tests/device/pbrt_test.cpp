@@ -106,6 +106,11 @@ TEST_F(PbrtTest, SmokeGridHasTheSameMeanAndNoStructureIsLeft) {
          }});
 }
 
+TEST_F(PbrtTest, SmokeFromOpenVdbHasTheSameMeanAndNoStructureIsLeft) {
+    expect_no_structure(scene_of("vdb-smoke"), image_of("vdb-smoke"), 96,
+                        {[](Medium& m) { m.sigma_s *= 0.9; }});
+}
+
 /// pbrt spreads coloured coefficients over wavelengths, which three channels cannot follow exactly.
 constexpr double kColoured = 0.02; // asked for
 
