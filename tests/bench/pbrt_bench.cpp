@@ -1,0 +1,91 @@
+/// The wavefront against the fused kernel, and against pbrt-v4's CPU volpath at equal error: CPU
+/// time times variance on the same picture. Its figures were taken when the yardstick printed
+/// kYardstickThen.
+#include "bench/bench.h"
+#include "bench/fused_cube.h"
+#include "bench/yardstick.h"
+
+#include <algorithm>
+#include <array>
+#include <benchmark/benchmark.h>
+#include <limits>
+
+namespace tyndall::bench {
+namespace {
+
+constexpr double kYardstickThen = 0.105; // CPU seconds per million paths
+
+/// pbrt-v4 (commit 5f7a6068, volpath, independent sampler) on 2 cores.
+struct PbrtFigures {
+    const char* scene;
+    double cpu_seconds_per_million_paths;
+    double variance_per_sample; ///< Image average of the G channel.
+};
+constexpr std::array<PbrtFigures, 5> kPbrt{{{"homogeneous-cube", 1.59, 0.0743},
+                                            {"chromatic-ball", 2.73, 0.1268},
+                                            {"fog-room", 13.8, 0.8627},
+                                            {"smoke-grid", 3.14, 0.0244},
+                                            {"vdb-smoke", 6.93, 0.0528}}};
+
+/// Image average of the variance per sample, G channel.
+double variance_per_sample(Renderer& renderer) {
+    const Image film = renderer.read_film();
+    double sum = 0;
+    for (std::size_t i = 0; i < film.pixels.size(); i += 6)
+        sum += static_cast<double>(film.pixels[i + 4]);
+    return sum / (double(film.width) * film.height) * renderer.samples();
+}
+
+/// The wavefront against the fused kernel, in turns.
+void fused_ratio(benchmark::State& state) {
+    constexpr int size = 256;
+    constexpr std::uint32_t samples = 512;
+    Renderer renderer(context(), read_bench_scene("device/pbrt/homogeneous-cube", size));
+    FusedCube fused(context(), size);
+    renderer.render(0, 8);
+    fused.render(1, 0);
+    const double paths = double(size) * size * samples;
+    double best_wavefront = std::numeric_limits<double>::max(), best_fused = best_wavefront;
+    std::uint32_t seed = 0;
+    for (auto _ : state) {
+        best_wavefront = std::min(best_wavefront, cpu_of([&] { renderer.render(0, samples); }));
+        best_fused = std::min(best_fused, cpu_of([&] { fused.render(samples, ++seed); }));
+    }
+    state.counters["wavefront_cpu_seconds_per_Mpath"] = best_wavefront / paths * 1e6;
+    state.counters["fused_cpu_seconds_per_Mpath"] = best_fused / paths * 1e6;
+    state.counters["ratio"] = best_fused / best_wavefront;
+    state.counters["fused_mean"] = fused.read_mean();
+}
+BENCHMARK(fused_ratio)->Iterations(6)->Unit(benchmark::kMillisecond);
+
+/// Time to equal error against pbrt-v4.
+void equal_error(benchmark::State& state) {
+    const PbrtFigures& pbrt = kPbrt[static_cast<std::size_t>(state.range(0))];
+    constexpr int size = 128;
+    const std::uint32_t samples = state.range(0) == 2 ? 16 : state.range(0) > 2 ? 128 : 512;
+    Renderer renderer(context(), read_bench_scene(std::string("device/pbrt/") + pbrt.scene, size));
+    renderer.render(0, 1);
+    const double paths = double(size) * size * samples;
+    double best = std::numeric_limits<double>::max(), yardstick = best, paths_walked = 1;
+    std::uint32_t round = 0;
+    for (auto _ : state) {
+        yardstick =
+            std::min(yardstick, cpu_of([&] { paths_walked = run_yardstick(++round).paths; }));
+        best = std::min(best, cpu_of([&] { renderer.render(0, samples); }));
+    }
+    const double ours = best / paths * 1e6 * variance_per_sample(renderer);
+    const double theirs = pbrt.cpu_seconds_per_million_paths * pbrt.variance_per_sample;
+    const double yardstick_now = yardstick / paths_walked * 1e6;
+    state.SetLabel(pbrt.scene);
+    state.counters["cpu_seconds_per_Mpath"] = best / paths * 1e6;
+    state.counters["variance_per_sample"] = variance_per_sample(renderer);
+    state.counters["yardstick_cpu_seconds_per_Mpath"] = yardstick_now;
+    state.counters["times_pbrt"] = theirs / ours * (yardstick_now / kYardstickThen);
+}
+BENCHMARK(equal_error)
+    ->DenseRange(0, int(kPbrt.size()) - 1)
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace tyndall::bench
