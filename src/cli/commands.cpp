@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "gpu/context.h"
 #include "render/effects.h"
+#include "scene/options.h"
 #include "scene/reader.h"
 
 #include <charconv>
@@ -95,9 +96,7 @@ Scene load_scene(const SceneOptions& options, bool quiet) {
     if (options.spp) scene.samples_per_pixel = static_cast<int>(*options.spp);
     if (options.seed) scene.seed = *options.seed;
     if (options.max_depth) scene.integrator.max_depth = *options.max_depth;
-    if (options.integrator)
-        scene.integrator.kind =
-            *options.integrator == "path" ? Integrator::Kind::path : Integrator::Kind::volpath;
+    if (options.integrator) scene.integrator.kind = integrator_kind(*options.integrator);
     return scene;
 }
 

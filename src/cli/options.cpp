@@ -16,8 +16,8 @@ void add_scene_options(CLI::App& app, SceneOptions& o) {
     app.add_option("--crop", o.crop, "Part to render: X0,X1,Y0,Y1, each 0..1");
     app.add_option("--maxdepth", o.max_depth, "Most scattering events of a path")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--integrator", o.integrator, "volpath or path")
-        ->check(CLI::IsMember({"volpath", "path"}));
+    app.add_option("--integrator", o.integrator, "volpath, path or singlescatter")
+        ->check(CLI::IsMember({"volpath", "path", "singlescatter"}));
 }
 
 void add_device_options(CLI::App& app, DeviceOptions& o) {

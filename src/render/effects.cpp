@@ -1,5 +1,6 @@
 #include "render/effects.h"
 
+#include "core/error.h"
 #include "render/phase_tables.h"
 #include "scene/emitting_voxels.h"
 #include "shared/records.h"
@@ -289,6 +290,19 @@ Effects Collector::collect() {
     return std::move(effects_);
 }
 
+/// Refuses what the scene language knows and no renderer does yet.
+void check_techniques(const Integrator& integrator) {
+    const auto require = [](bool is_supported, const char* what) {
+        if (!is_supported)
+            throw Error(ExitStatus::bad_input, fmt::format("{} is not supported yet", what));
+    };
+    require(integrator.kind != Integrator::Kind::singlescatter, "integrator \"singlescatter\"");
+    require(integrator.samples_lights, "\"bool lightsampling\" false");
+    require(integrator.absorption == Integrator::Absorption::expected, "absorption \"analog\"");
+    require(integrator.transmittance == Integrator::Transmittance::tracked,
+            "transmittance \"marched\"");
+}
+
 } // namespace
 
 std::uint32_t queue_of(const Material& material) {
@@ -310,6 +324,7 @@ std::uint32_t queue_of(const Material& material) {
 }
 
 Effects compute_effects(const Scene& scene) {
+    check_techniques(scene.integrator);
     return Collector(scene).collect();
 }
 

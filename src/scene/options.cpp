@@ -29,6 +29,37 @@ void read_screen_window(Parameters& parameters, Camera& camera) {
     camera.screen_window_given = true;
 }
 
+/// How many steps a march has, or how long they are.
+void read_steps(Parameters& parameters, Integrator& integrator) {
+    const Parameter* size = parameters.find("float", "stepsize");
+    const Parameter* count = parameters.find("integer", "steps");
+    integrator.steps = parameters.get_integer("steps", integrator.steps, require::positive);
+    if (size) integrator.step_size = parameters.get_float("stepsize", 0, require::positive);
+    if (size && count)
+        parameters.diagnostics().error(size->where,
+                                       "parameters \"float stepsize\" and \"integer steps\" "
+                                       "exclude each other");
+}
+
+/// Tyndall's own parameters of integrators: which estimators they are made of.
+void read_technique(Parameters& parameters, Integrator& integrator) {
+    static const TypeNames absorptions{"absorption", {"expected", "analog"}, {}};
+    static const TypeNames transmittances{"transmittance", {"tracked", "marched"}, {}};
+    static const TypeNames placements{"placement", {"uniform", "jittered", "equiangular"}, {}};
+    const bool marches = integrator.kind == Integrator::Kind::singlescatter;
+    if (!marches) integrator.samples_lights = parameters.get_bool("lightsampling", true);
+    if (integrator.kind == Integrator::Kind::path) return;
+    if (!marches && read_choice(parameters, "absorption", "expected", absorptions) == "analog")
+        integrator.absorption = Integrator::Absorption::analog;
+    if (read_choice(parameters, "transmittance", "tracked", transmittances) == "marched")
+        integrator.transmittance = Integrator::Transmittance::marched;
+    read_steps(parameters, integrator);
+    if (!marches) return;
+    const std::string placement = read_choice(parameters, "placement", "uniform", placements);
+    if (placement == "jittered") integrator.placement = Integrator::Placement::jittered;
+    if (placement == "equiangular") integrator.placement = Integrator::Placement::equiangular;
+}
+
 } // namespace
 
 Camera read_camera(const std::string& type, Parameters& parameters) {
@@ -90,18 +121,24 @@ PixelFilter read_pixel_filter(const std::string& type, Parameters& parameters) {
     return filter;
 }
 
+Integrator::Kind integrator_kind(std::string_view name) {
+    if (name == "path") return Integrator::Kind::path;
+    if (name == "singlescatter") return Integrator::Kind::singlescatter;
+    return Integrator::Kind::volpath;
+}
+
 Integrator read_integrator(const std::string& type, Parameters& parameters) {
     static const TypeNames names{"integrator",
-                                 {"volpath", "path"},
+                                 {"volpath", "path", "singlescatter"},
                                  {"ambientocclusion", "bdpt", "function", "lightpath", "mlt",
-                                  "randomwalk", "simplepath", "simplevolpath", "sppm",
-                                  "singlescatter"}};
+                                  "randomwalk", "simplepath", "simplevolpath", "sppm"}};
     static const TypeNames light_samplers{
         "light sampler", {"bvh", "power", "uniform", "exhaustive"}, {}};
     Integrator integrator;
     if (!check_type(names, type, parameters.where(), parameters.diagnostics())) return integrator;
-    integrator.kind = type == "path" ? Integrator::Kind::path : Integrator::Kind::volpath;
+    integrator.kind = integrator_kind(type);
     integrator.max_depth = parameters.get_integer("maxdepth", 5, require::non_negative);
+    read_technique(parameters, integrator);
     read_choice(parameters, "lightsampler", "bvh", light_samplers);
     if (parameters.get_bool("regularize", false)) parameters.reject("bool", "regularize");
     parameters.report_unused();

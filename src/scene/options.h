@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace tyndall {
 
@@ -18,6 +19,9 @@ Camera read_camera(const std::string& type, Parameters& parameters);
 Film read_film(const std::string& type, Parameters& parameters);
 
 PixelFilter read_pixel_filter(const std::string& type, Parameters& parameters);
+
+/// "volpath" (or any other), "path", "singlescatter".
+Integrator::Kind integrator_kind(std::string_view name);
 
 Integrator read_integrator(const std::string& type, Parameters& parameters);
 

@@ -243,14 +243,39 @@ struct Film {
     bool half_float = false; ///< savefp16 true was asked for.
 };
 
+/// How light is estimated.
 struct Integrator {
     enum class Kind {
-        volpath, ///< Surfaces and media.
-        path     ///< Surfaces only: media are ignored.
+        volpath,      ///< Surfaces and media.
+        path,         ///< Surfaces only: media are ignored.
+        singlescatter ///< Surfaces; media by marching, with light that scatters in them once.
+    };
+    /// volpath: what a collision does to a path.
+    enum class Absorption {
+        expected, ///< Flights end where light is scattered; absorption is a weight.
+        analog    ///< Flights end where light meets matter, and there paths end with it.
+    };
+    /// Of shadow rays, where there is no closed form.
+    enum class Transmittance {
+        tracked, ///< Ratio tracking: unbiased.
+        marched  ///< exp(-sum of sigma_t dt) at the middles of steps: deterministic and biased.
+    };
+    /// singlescatter: where in its step a sample stands.
+    enum class Placement {
+        uniform,    ///< In the middle.
+        jittered,   ///< Anywhere, by a random number of its own.
+        equiangular ///< Steps of equal angle as seen from a light (Kulla and Fajardo 2012).
     };
     Kind kind = Kind::volpath;
     int max_depth =
         5; ///< Most scattering events (surface or medium) of a path; interfaces are free.
+    /// volpath, path: next-event estimation. Else lights are found by running into them.
+    bool samples_lights = true;
+    Absorption absorption = Absorption::expected;
+    Transmittance transmittance = Transmittance::tracked;
+    int steps = 64;       ///< Of a march through one segment in one medium, > 0 ...
+    double step_size = 0; ///< ... or, if > 0, their length at most, in scene units.
+    Placement placement = Placement::uniform;
 };
 
 struct Scene {

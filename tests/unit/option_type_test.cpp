@@ -180,7 +180,40 @@ TEST(IntegratorType, ReadsItsParameters) {
     EXPECT_EQ(option_error("Integrator \"bdpt\" \"integer maxdepth\" 3"),
               "integrator \"bdpt\" is not supported yet");
     EXPECT_EQ(option_error("Integrator \"magic\""),
-              "unknown integrator \"magic\" (expected one of volpath, path)");
+              "unknown integrator \"magic\" (expected one of volpath, path, singlescatter)");
+}
+
+TEST(IntegratorType, ReadsItsTechniques) {
+    const Integrator plain = read_options("").integrator;
+    EXPECT_TRUE(plain.samples_lights);
+    EXPECT_EQ(plain.absorption, Integrator::Absorption::expected);
+    EXPECT_EQ(plain.transmittance, Integrator::Transmittance::tracked);
+    const Integrator analog =
+        read_options("Integrator \"volpath\" \"bool lightsampling\" false \"string absorption\" "
+                     "\"analog\" \"string transmittance\" \"marched\" \"float stepsize\" 0.25")
+            .integrator;
+    EXPECT_FALSE(analog.samples_lights);
+    EXPECT_EQ(analog.absorption, Integrator::Absorption::analog);
+    EXPECT_EQ(analog.transmittance, Integrator::Transmittance::marched);
+    EXPECT_EQ(analog.step_size, 0.25);
+    const Integrator march = read_options("Integrator \"singlescatter\" \"integer steps\" 7 "
+                                          "\"string placement\" \"equiangular\"")
+                                 .integrator;
+    EXPECT_EQ(march.kind, Integrator::Kind::singlescatter);
+    EXPECT_EQ(march.steps, 7);
+    EXPECT_EQ(march.step_size, 0);
+    EXPECT_EQ(march.placement, Integrator::Placement::equiangular);
+}
+
+TEST(IntegratorType, RefusesTechniquesThatAreNone) {
+    EXPECT_EQ(option_error("Integrator \"volpath\" \"string absorption\" \"none\""),
+              "unknown absorption \"none\" (expected one of expected, analog)");
+    EXPECT_EQ(option_error("Integrator \"singlescatter\" \"integer steps\" 0"),
+              "parameter \"integer steps\" is 0 (expected a value > 0)");
+    EXPECT_EQ(
+        option_error("Integrator \"singlescatter\" \"integer steps\" 9 \"float stepsize\" 0.1"),
+        "parameters \"float stepsize\" and \"integer steps\" exclude each other");
+    EXPECT_EQ(option_errors("Integrator \"path\" \"string placement\" \"uniform\"").size(), 1u);
 }
 
 TEST(AcceleratorType, IsCheckedOnly) {
