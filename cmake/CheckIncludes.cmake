@@ -25,7 +25,7 @@ set(rules
   "shaders/wavefront | shared/ lib/ wavefront/.*glsl")
 
 set(libraries
-  "volk.h vulkan/ | src/gpu"
+  "volk.h vulkan/ spirv-tools/ | src/gpu"
   "OpenImageIO/   | src/image"
   "openvdb/ nanovdb/ | src/volume"
   "embree         | src/render src/reference"

@@ -1,8 +1,8 @@
 #include "gpu/stage.h"
 
 #include "core/error.h"
+#include "gpu/specialize.h"
 
-#include <cstddef>
 #include <fmt/format.h>
 #include <utility>
 #include <vector>
@@ -61,19 +61,6 @@ void check_size(const Context& context, const Buffer& buffer, const char* what) 
 
 constexpr std::array<const char*, shared::TEXEL_BUFFER_COUNT> kTexelBufferNames{
     "scene", "state of the paths", "batches in flight", "film", "voxels"};
-
-struct SpecializationTable {
-    std::array<VkSpecializationMapEntry, sizeof(shared::Features) / sizeof(std::uint32_t)> entries;
-};
-
-SpecializationTable specialization_table() {
-    return {{{
-#define TYNDALL_FEATURE_ENTRY(id, name, value)                                                     \
-    VkSpecializationMapEntry{id, offsetof(shared::Features, name), sizeof(std::uint32_t)},
-        TYNDALL_FEATURES(TYNDALL_FEATURE_ENTRY)
-#undef TYNDALL_FEATURE_ENTRY
-    }}};
-}
 
 } // namespace
 
@@ -136,25 +123,22 @@ Stage::Stage(const Context& context, const Descriptors& descriptors, std::string
              std::span<const std::uint32_t> spirv, const shared::Features& features)
     : name_(std::move(name)), workgroup_size_(features.workgroup_size) {
     const VkDevice device = context.device();
+    const std::vector<std::uint32_t> code = specialize(spirv, features, name_);
     const VkShaderModuleCreateInfo create_module{.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                 .codeSize = spirv.size_bytes(),
-                                                 .pCode = spirv.data()};
+                                                 .codeSize = code.size() * sizeof(code[0]),
+                                                 .pCode = code.data()};
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device, &create_module, nullptr, &module),
           "create the shader of stage " + name_);
     const Handle<VkShaderModule, &vkDestroyShaderModule> module_owner(device, module);
 
-    const SpecializationTable table = specialization_table();
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(table.entries.size()),
-                                              table.entries.data(), sizeof(features), &features};
     const VkComputePipelineCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = module,
-                  .pName = "main",
-                  .pSpecializationInfo = &specialization},
+                  .pName = "main"},
         .layout = descriptors.layout()};
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
