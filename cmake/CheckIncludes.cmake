@@ -1,7 +1,7 @@
 # cmake -DTREE=folder -P CheckIncludes.cmake
 # Fails, naming each place, on an include that the layering forbids:
 #
-#   core <- volume, phase <- scene    core <- image, gpu    those <- render, reference, stats <- cli
+#   core <- volume, phase <- scene    core <- image, gpu    those <- render, reference, stats <- study <- cli
 #   shared <- lib <- wavefront
 #
 # A folder may include what its line below matches, and system headers. The folders that may include
@@ -18,7 +18,8 @@ set(rules
   "src/render    | core/ volume/ phase/ scene/ image/ gpu/ render/ shared/ spirv/"
   "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/interop.h"
   "src/stats     | core/ image/ stats/"
-  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ cli/ shared/schedule.h"
+  "src/study     | core/ volume/ phase/ scene/ image/ gpu/ render/ stats/ study/ shared/records.h"
+  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ study/ cli/ shared/schedule.h"
   "src/main.cpp  | core/ cli/"
   "shaders/shared    | interop.h records.h"
   "shaders/lib       | shared/ lib/"
@@ -31,7 +32,7 @@ set(libraries
   "embree         | src/render src/reference"
   "openvdb nanovdb/ | src/volume"
   "CLI/           | src/cli"
-  "nlohmann/      | src/cli")
+  "nlohmann/      | src/cli src/study")
 
 set(failures)
 

@@ -46,18 +46,7 @@ void apply_size(Scene& scene, const std::string& text) {
     if (!valid(size[0]) || !valid(size[1]))
         throw Error(ExitStatus::bad_input,
                     fmt::format("--size {} (expected whole numbers from 1 to 65535)", text));
-    Film& film = scene.film;
-    const double x_scale = size[0] / film.width, y_scale = size[1] / film.height;
-    film.width = static_cast<int>(size[0]);
-    film.height = static_cast<int>(size[1]);
-    // The scene's own crop window stays the same part of the picture.
-    const auto scaled = [](int at, double by, int limit) {
-        return std::clamp(static_cast<int>(std::ceil(at * by)), 0, limit);
-    };
-    PixelBounds& b = film.bounds;
-    b = {scaled(b.x0, x_scale, film.width), scaled(b.x1, x_scale, film.width),
-         scaled(b.y0, y_scale, film.height), scaled(b.y1, y_scale, film.height)};
-    fit_screen_window(scene);
+    resize_film(scene, static_cast<int>(size[0]), static_cast<int>(size[1]));
 }
 
 void apply_crop(Scene& scene, const std::string& text) {
@@ -75,6 +64,21 @@ void apply_crop(Scene& scene, const std::string& text) {
 }
 
 } // namespace
+
+void resize_film(Scene& scene, int width, int height) {
+    Film& film = scene.film;
+    const double x_scale = double(width) / film.width, y_scale = double(height) / film.height;
+    film.width = width;
+    film.height = height;
+    // The scene's own crop window stays the same part of the picture.
+    const auto scaled = [](int at, double by, int limit) {
+        return std::clamp(static_cast<int>(std::ceil(at * by)), 0, limit);
+    };
+    PixelBounds& b = film.bounds;
+    b = {scaled(b.x0, x_scale, film.width), scaled(b.x1, x_scale, film.width),
+         scaled(b.y0, y_scale, film.height), scaled(b.y1, y_scale, film.height)};
+    fit_screen_window(scene);
+}
 
 Scene load_scene(const SceneOptions& options, bool quiet) {
     Scene scene;

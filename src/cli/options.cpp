@@ -8,14 +8,18 @@
 namespace tyndall::cli {
 namespace {
 
-void add_scene_options(CLI::App& app, SceneOptions& o) {
+void add_picture_options(CLI::App& app, SceneOptions& o) {
     app.add_option("scene", o.scene, "Scene file (.pbrt, .pbrt.gz)")->required();
-    app.add_option("--spp", o.spp, "Samples per pixel")->check(CLI::Range(1u, 0x7FFFFFFFu));
     app.add_option("--seed", o.seed, "Seed of the random numbers");
     app.add_option("--size", o.size, "Picture size WxH in pixels");
     app.add_option("--crop", o.crop, "Part to render: X0,X1,Y0,Y1, each 0..1");
     app.add_option("--maxdepth", o.max_depth, "Most scattering events of a path")
         ->check(CLI::NonNegativeNumber);
+}
+
+void add_scene_options(CLI::App& app, SceneOptions& o) {
+    add_picture_options(app, o);
+    app.add_option("--spp", o.spp, "Samples per pixel")->check(CLI::Range(1u, 0x7FFFFFFFu));
     app.add_option("--integrator", o.integrator, "volpath, path or singlescatter")
         ->check(CLI::IsMember({"volpath", "path", "singlescatter"}));
 }
@@ -67,6 +71,27 @@ void add_verify(CLI::App& app, VerifyOptions& o, int& status) {
     command->callback([&] { status = run_verify(o); });
 }
 
+void add_study(CLI::App& app, StudyOptions& o, int& status) {
+    CLI::App* command =
+        app.add_subcommand("study", "Compare techniques: accuracy against time, as a report");
+    add_picture_options(*command, o.scene);
+    command->add_option("-o,--output", o.folder, "Folder for the report")->required();
+    command
+        ->add_option("--technique", o.techniques,
+                     "Technique to measure, * for any characters (repeatable; default: all)")
+        ->allow_extra_args(false);
+    command->add_option("--budget", o.budget, "Seconds for everything")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("--reference", o.reference,
+                        "Image to measure errors from (default: one is made)");
+    command->add_option("--device", o.device.device,
+                        "Device name or index (see `tyndall devices`)");
+    command->add_flag("--validate", o.device.validate, "Run with the Vulkan validation layer");
+    command->add_flag("--quiet", o.quiet, "No progress");
+    command->callback([&] { status = run_study(o); });
+}
+
 void add_rest(CLI::App& app, InfoOptions& info, CompareOptions& compare, DevicesOptions& devices,
               int& status) {
     CLI::App* command = app.add_subcommand("info", "Tell what a scene calls for; renders nothing");
@@ -90,6 +115,17 @@ void add_rest(CLI::App& app, InfoOptions& info, CompareOptions& compare, Devices
     command->callback([&] { status = run_devices(devices); });
 }
 
+/// The arguments as a shell would take them.
+std::string command_line(int argc, char** argv) {
+    std::string text;
+    for (int i = 0; i < argc; ++i) {
+        const std::string word = i == 0 ? "tyndall" : argv[i];
+        const bool is_plain = word.find_first_of(" \t\n'\"*?[]$&|;<>()\\") == std::string::npos;
+        text += (i == 0 ? "" : " ") + (is_plain && !word.empty() ? word : "'" + word + "'");
+    }
+    return text;
+}
+
 } // namespace
 
 int run(int argc, char** argv) {
@@ -99,11 +135,13 @@ int run(int argc, char** argv) {
     int status = 0;
     RenderOptions render;
     VerifyOptions verify;
+    StudyOptions study{.command_line = command_line(argc, argv)};
     InfoOptions info;
     CompareOptions compare;
     DevicesOptions devices;
     add_render(app, render, status);
     add_verify(app, verify, status);
+    add_study(app, study, status);
     add_rest(app, info, compare, devices, status);
     try {
         app.parse(argc, argv);

@@ -47,6 +47,17 @@ struct VerifyOptions {
     bool quiet = false;
 };
 
+struct StudyOptions {
+    SceneOptions scene;
+    DeviceOptions device;
+    std::string folder;
+    std::vector<std::string> techniques; ///< Names or patterns; none: all.
+    double budget = 120;                 ///< Seconds.
+    std::string reference;               ///< Image file, or "".
+    std::string command_line;            ///< As it was given.
+    bool quiet = false;
+};
+
 struct InfoOptions {
     SceneOptions scene;
     bool json = false;
@@ -67,6 +78,7 @@ struct DevicesOptions {
 /// Each command's work; returns the exit status. Throws Error.
 int run_render(const RenderOptions& options);
 int run_verify(const VerifyOptions& options);
+int run_study(const StudyOptions& options);
 int run_info(const InfoOptions& options);
 int run_compare(const CompareOptions& options);
 int run_devices(const DevicesOptions& options);
@@ -77,5 +89,8 @@ int run(int argc, char** argv);
 /// Reads the scene, prints its warnings, and applies the changes. Unless `quiet` it tells which
 /// file it is at, if that takes time. Throws Error (bad usage: bad_input).
 Scene load_scene(const SceneOptions& options, bool quiet);
+
+/// Gives the picture another size; a crop window stays the same part of it.
+void resize_film(Scene& scene, int width, int height);
 
 } // namespace tyndall::cli

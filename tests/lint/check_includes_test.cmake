@@ -26,6 +26,8 @@ set(forbidden
   "src/reference/a.cpp|#include \"lib/phase.glsl\""
   "src/reference/a.cpp|#include \"gpu/context.h\""
   "src/stats/a.cpp|#include <OpenImageIO/imageio.h>"
+  "src/study/a.cpp|#include \"cli/options.h\""
+  "src/study/a.cpp|#include \"reference/reference.h\""
   "src/main.cpp|#include \"render/renderer.h\""
   "src/novel/a.cpp|int x"
   "shaders/shared/a.h|#include \"lib/phase.glsl\""

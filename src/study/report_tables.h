@@ -1,0 +1,22 @@
+/// The tables of the report (HTML).
+#pragma once
+
+#include "study/analysis.h"
+
+#include <string>
+
+namespace tyndall::study {
+
+std::string choice_table(const std::vector<Choice>& choices);
+std::string agreement_table(const Agreement& agreement);
+std::string effects_table(const Results& results);
+std::string techniques_table(const Results& results);
+std::string provenance_table(const Results& results);
+
+/// What the times of this study are.
+std::string time_text(const Results& results);
+
+/// How errors, bias, noise and times were measured, and what they mean.
+std::string method_text(const Results& results);
+
+} // namespace tyndall::study

@@ -1,0 +1,29 @@
+/// What was found, in sentences with numbers (HTML).
+#pragma once
+
+#include "study/analysis.h"
+
+#include <string>
+
+namespace tyndall::study {
+
+/// What to choose when, in two or three sentences.
+std::string headline(const Results& results, const std::vector<Choice>& choices);
+
+/// Whether the unbiased techniques agree.
+std::string agreement_sentence(const Agreement& agreement);
+
+/// How error falls with samples and time.
+std::string slope_sentence(const Results& results);
+
+std::string marching_sentence(const Results& results);
+std::string orders_sentence(const Results& results);
+std::string cells_sentence(const Results& results);
+/// What each technique of a family takes to the accuracy of the reader's choice, against the
+/// baseline.
+std::string family_sentence(const Results& results, Family family);
+
+/// Time per sample over that of the baseline.
+double relative_cost(const Results& results, const TechniqueResult& technique);
+
+} // namespace tyndall::study
