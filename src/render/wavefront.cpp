@@ -1,18 +1,6 @@
 #include "render/wavefront.h"
 
 #include "core/error.h"
-#include "spirv/cross_interface.h"
-#include "spirv/next_sample.h"
-#include "spirv/schedule.h"
-#include "spirv/shade_conductor.h"
-#include "spirv/shade_dielectric.h"
-#include "spirv/shade_surface.h"
-#include "spirv/shade_volume.h"
-#include "spirv/trace_segment.h"
-#include "spirv/trace_shadow.h"
-#include "spirv/track_medium.h"
-#include "spirv/update_film.h"
-#include "spirv/walk_region.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -82,41 +70,16 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     features_.emitters = tables.emitters;
     features_.voxels_are_half = tables.voxels.is_half;
 
-    build_stages(effects);
+    build_stages();
 }
 
-void Wavefront::build_stages(const Effects& effects) {
-    const auto make = [&](const char* name, std::span<const std::uint32_t> spirv) {
-        return std::optional<gpu::Stage>(std::in_place, *context_, *descriptors_, name, spirv,
-                                         features_);
-    };
-    const auto has_queue = [&](std::uint32_t queue) {
-        return features_.surface_queues >> queue & 1u;
-    };
-    schedule_ = make("schedule", schedule_spirv);
-    update_film_ = make("update_film", update_film_spirv);
-    if (features_.geometry != GEOMETRY_BVH) {
-        walk_region_ = make("walk_region", walk_region_spirv);
-        return;
+void Wavefront::build_stages() {
+    for (const StageKind& kind : stage_kinds()) {
+        if (!kind.is_called_for(features_)) continue;
+        stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
+                                             kind.features(features_))});
+        if (kind.input == StageInput::once) schedule_ = stages_.size() - 1;
     }
-    trace_segment_ = make("trace_segment", trace_segment_spirv);
-    next_sample_ = make("next_sample", next_sample_spirv);
-    if (features_.densities & DENSITY_BITS_TRACKED)
-        track_medium_ = make("track_medium", track_medium_spirv);
-    if (features_.has_scattering) shade_volume_ = make("shade_volume", shade_volume_spirv);
-    if (has_queue(QUEUE_SURFACE)) shade_surface_ = make("shade_surface", shade_surface_spirv);
-    features_.is_rough = 0;
-    if (has_queue(QUEUE_DIELECTRIC))
-        shade_dielectric_ = make("shade_dielectric", shade_dielectric_spirv);
-    if (has_queue(QUEUE_CONDUCTOR))
-        shade_conductor_ = make("shade_conductor", shade_conductor_spirv);
-    features_.is_rough = 1;
-    if (has_queue(QUEUE_ROUGH_DIELECTRIC))
-        shade_rough_dielectric_ = make("shade_rough_dielectric", shade_dielectric_spirv);
-    if (has_queue(QUEUE_ROUGH_CONDUCTOR))
-        shade_rough_conductor_ = make("shade_rough_conductor", shade_conductor_spirv);
-    if (features_.has_interfaces) cross_interface_ = make("cross_interface", cross_interface_spirv);
-    if (effects.samples_lights) trace_shadow_ = make("trace_shadow", trace_shadow_spirv);
 }
 
 void Wavefront::begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
@@ -132,55 +95,45 @@ void Wavefront::begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count
     if (clear_film) commands.fill_zero(film_);
     commands.barrier();
     commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
-    commands.dispatch(*schedule_, 1); // makes the first tickets due
+    commands.dispatch(stages_[schedule_].stage, 1); // makes the first tickets due
     commands.barrier();
     commands.submit();
     commands.wait();
 }
 
-/// This list is the renderer.
+void Wavefront::record_stage(gpu::Commands& commands, const BuiltStage& built) const {
+    const StageKind& kind = *built.kind;
+    const auto indirect = [&](std::size_t offset) {
+        commands.dispatch_indirect(built.stage, control_, offset);
+    };
+    switch (kind.input) {
+    case StageInput::slots:
+        commands.dispatch(built.stage, push_.slot_count);
+        break;
+    case StageInput::queue:
+        indirect(offsetof(Control, queue_dispatch) + kind.queue * sizeof(DispatchSize));
+        break;
+    case StageInput::once:
+        commands.dispatch(built.stage, 1);
+        break;
+    case StageInput::folds:
+        indirect(offsetof(Control, fold_dispatch));
+        break;
+    }
+    commands.barrier();
+}
+
 void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
                               const gpu::Timestamps& clock) const {
     commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
     commands.reset(clock);
+    commands.mark(clock, 0);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         std::uint32_t mark = 0;
-        const auto end_stage = [&] {
-            commands.barrier();
+        for (const BuiltStage& built : stages_) {
+            record_stage(commands, built);
             if (round == 0) commands.mark(clock, ++mark);
-        };
-        const auto run = [&](const std::optional<gpu::Stage>& stage, std::uint32_t invocations) {
-            if (!stage) return;
-            commands.dispatch(*stage, invocations);
-            end_stage();
-        };
-        const auto run_indirect = [&](const std::optional<gpu::Stage>& stage,
-                                      std::uint64_t arguments) {
-            if (!stage) return;
-            commands.dispatch_indirect(*stage, control_, arguments);
-            end_stage();
-        };
-        const auto drain = [&](std::uint32_t queue, const std::optional<gpu::Stage>& stage) {
-            run_indirect(stage, offsetof(Control, queue_dispatch) + queue * sizeof(DispatchSize));
-        };
-        if (round == 0) commands.mark(clock, 0);
-
-        run(walk_region_, push_.slot_count);
-
-        run(trace_segment_, push_.slot_count);
-        drain(QUEUE_TRACK, track_medium_);
-        drain(QUEUE_VOLUME, shade_volume_);
-        drain(QUEUE_SURFACE, shade_surface_);
-        drain(QUEUE_DIELECTRIC, shade_dielectric_);
-        drain(QUEUE_ROUGH_DIELECTRIC, shade_rough_dielectric_);
-        drain(QUEUE_CONDUCTOR, shade_conductor_);
-        drain(QUEUE_ROUGH_CONDUCTOR, shade_rough_conductor_);
-        drain(QUEUE_INTERFACE, cross_interface_);
-        drain(QUEUE_SHADOW, trace_shadow_);
-        drain(QUEUE_ENDED, next_sample_);
-
-        run(schedule_, 1);
-        run_indirect(update_film_, offsetof(Control, fold_dispatch));
+        }
     }
 }
 
@@ -214,11 +167,8 @@ std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {
 
 std::vector<std::string> Wavefront::stage_names() const {
     std::vector<std::string> names;
-    for (const auto* stage :
-         {&walk_region_, &trace_segment_, &track_medium_, &shade_volume_, &shade_surface_,
-          &shade_dielectric_, &shade_rough_dielectric_, &shade_conductor_, &shade_rough_conductor_,
-          &cross_interface_, &trace_shadow_, &next_sample_, &schedule_, &update_film_})
-        if (*stage) names.push_back((*stage)->name());
+    for (const BuiltStage& built : stages_)
+        names.push_back(built.stage.name());
     return names;
 }
 

@@ -4,8 +4,8 @@
 #include "gpu/commands.h"
 #include "render/effects.h"
 #include "render/scene_tables.h"
+#include "render/stages.h"
 
-#include <memory>
 #include <optional>
 
 namespace tyndall {
@@ -48,7 +48,12 @@ class Wavefront {
     std::vector<std::string> stage_names() const;
 
   private:
-    void build_stages(const Effects& effects);
+    struct BuiltStage {
+        const StageKind* kind;
+        gpu::Stage stage;
+    };
+    void build_stages();
+    void record_stage(gpu::Commands& commands, const BuiltStage& built) const;
 
     const gpu::Context* context_;
     shared::Features features_;
@@ -57,23 +62,8 @@ class Wavefront {
     std::vector<std::pair<std::string, std::uint64_t>> table_bytes_;
     gpu::Buffer scene_, paths_, batches_, film_, voxels_, control_, queues_;
     std::optional<gpu::Descriptors> descriptors_;
-    // Without a hierarchy:
-    std::optional<gpu::Stage> walk_region_;
-    // With one; those that the effects call for:
-    std::optional<gpu::Stage> trace_segment_;
-    std::optional<gpu::Stage> track_medium_;
-    std::optional<gpu::Stage> shade_volume_;
-    std::optional<gpu::Stage> shade_surface_;
-    std::optional<gpu::Stage> shade_dielectric_;
-    std::optional<gpu::Stage> shade_rough_dielectric_;
-    std::optional<gpu::Stage> shade_conductor_;
-    std::optional<gpu::Stage> shade_rough_conductor_;
-    std::optional<gpu::Stage> cross_interface_;
-    std::optional<gpu::Stage> trace_shadow_;
-    std::optional<gpu::Stage> next_sample_;
-    // Always:
-    std::optional<gpu::Stage> schedule_;
-    std::optional<gpu::Stage> update_film_;
+    std::vector<BuiltStage> stages_; ///< Those that the effects call for.
+    std::size_t schedule_ = 0;       ///< Index of that stage.
 };
 
 } // namespace tyndall

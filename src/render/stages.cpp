@@ -1,0 +1,79 @@
+#include "render/stages.h"
+
+#include "spirv/cross_interface.h"
+#include "spirv/next_sample.h"
+#include "spirv/schedule.h"
+#include "spirv/shade_conductor.h"
+#include "spirv/shade_dielectric.h"
+#include "spirv/shade_surface.h"
+#include "spirv/shade_volume.h"
+#include "spirv/trace_segment.h"
+#include "spirv/trace_shadow.h"
+#include "spirv/track_medium.h"
+#include "spirv/update_film.h"
+#include "spirv/walk_region.h"
+
+#include <array>
+
+namespace tyndall {
+namespace {
+
+using namespace shared;
+
+bool always(const Features&) {
+    return true;
+}
+bool has_hierarchy(const Features& f) {
+    return f.geometry == GEOMETRY_BVH;
+}
+bool has_no_hierarchy(const Features& f) {
+    return !has_hierarchy(f);
+}
+bool tracks_media(const Features& f) {
+    return has_hierarchy(f) && f.densities & DENSITY_BITS_TRACKED;
+}
+bool scatters_in_media(const Features& f) {
+    return has_hierarchy(f) && f.has_scattering;
+}
+bool samples_lights(const Features& f) {
+    return has_hierarchy(f) && f.lights;
+}
+template<std::uint32_t queue>
+bool has_surface(const Features& f) {
+    return has_hierarchy(f) && f.surface_queues >> queue & 1u;
+}
+
+constexpr StageInput slots = StageInput::slots, queue = StageInput::queue;
+
+/// This list is the renderer.
+const std::array<StageKind, 14> kStages{{
+    {"walk_region", walk_region_spirv, slots, 0, has_no_hierarchy},
+
+    {"trace_segment", trace_segment_spirv, slots, 0, has_hierarchy},
+    {"track_medium", track_medium_spirv, queue, QUEUE_TRACK, tracks_media},
+    {"shade_volume", shade_volume_spirv, queue, QUEUE_VOLUME, scatters_in_media},
+    {"shade_surface", shade_surface_spirv, queue, QUEUE_SURFACE, has_surface<QUEUE_SURFACE>},
+    {"shade_dielectric", shade_dielectric_spirv, queue, QUEUE_DIELECTRIC,
+     has_surface<QUEUE_DIELECTRIC>, false},
+    {"shade_rough_dielectric", shade_dielectric_spirv, queue, QUEUE_ROUGH_DIELECTRIC,
+     has_surface<QUEUE_ROUGH_DIELECTRIC>},
+    {"shade_conductor", shade_conductor_spirv, queue, QUEUE_CONDUCTOR, has_surface<QUEUE_CONDUCTOR>,
+     false},
+    {"shade_rough_conductor", shade_conductor_spirv, queue, QUEUE_ROUGH_CONDUCTOR,
+     has_surface<QUEUE_ROUGH_CONDUCTOR>},
+    {"cross_interface", cross_interface_spirv, queue, QUEUE_INTERFACE,
+     has_surface<QUEUE_INTERFACE>},
+    {"trace_shadow", trace_shadow_spirv, queue, QUEUE_SHADOW, samples_lights},
+    {"next_sample", next_sample_spirv, queue, QUEUE_ENDED, has_hierarchy},
+
+    {"schedule", schedule_spirv, StageInput::once, 0, always},
+    {"update_film", update_film_spirv, StageInput::folds, 0, always},
+}};
+
+} // namespace
+
+std::span<const StageKind> stage_kinds() {
+    return kStages;
+}
+
+} // namespace tyndall
