@@ -76,7 +76,6 @@ int run_study(const StudyOptions& options) {
     Scene scene = load_scene(options.scene, options.quiet);
     const int scene_width = scene.film.width, scene_height = scene.film.height;
     if (!options.scene.size && !options.scene.crop && options.reference.empty()) shrink(scene);
-    scene.integrator = {.max_depth = scene.integrator.max_depth};
     const gpu::Context context(
         {.device = options.device.device, .validate = options.device.validate});
     study::Results about = describe(options, scene, context.info());

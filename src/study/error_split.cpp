@@ -16,12 +16,15 @@ constexpr double kQuadruples = K * (K - 1) * (K - 2) * (K - 3);
 /// Values of a pixel and channel in each run.
 using Values = std::array<double, kRuns>;
 
-/// An estimate of a sum over pixels, and of its variance.
+/// An estimate of a sum over pixels, and of its variance. That is unbiased, and so may come out too
+/// small, even negative, where few pixels decide; but it is not below `least`, whatever the
+/// distribution.
 struct Sum {
-    double value = 0, variance = 0;
+    double value = 0, variance = 0, least = 0;
     void add(const Sum& term) {
         value += term.value;
         variance += term.variance;
+        least += term.least;
     }
 };
 
@@ -30,7 +33,7 @@ Estimate combine(const std::array<Sum, 3>& channels, double power) {
     Estimate result;
     for (const Sum& sum : channels) {
         result.value += sum.value / power;
-        result.sd += std::sqrt(std::max(0.0, sum.variance)) / power;
+        result.sd += std::sqrt(std::max(sum.variance, sum.least)) / power;
     }
     return result;
 }
@@ -46,32 +49,42 @@ struct Spread {
         }
     }
     double variance() const { return second / (K - 1); }
+    /// sigma^4, without bias; not negative.
+    double square_variance() const {
+        return std::max(0.0, (K * K - 3 * K + 3) * second * second - K * (K - 1) * fourth) /
+               kQuadruples;
+    }
+    /// 2 sigma^4 / (K (K - 1)): the variance of the sample variance is least, and this, for values
+    /// at two points; and it is that of the mean product of two values of mean 0.
+    double least() const { return 2 * square_variance() / (K * (K - 1)); }
     double second = 0, fourth = 0;
 };
 
 /// Sample variance, and the variance of that: its square less the unbiased estimate of sigma^4.
 Sum variance_term(const Values& values) {
     const Spread spread(values);
-    const double sigma4 =
-        ((K * K - 3 * K + 3) * spread.second * spread.second - K * (K - 1) * spread.fourth) /
-        kQuadruples;
-    return {spread.variance(), spread.variance() * spread.variance() - sigma4};
+    return {spread.variance(), spread.variance() * spread.variance() - spread.square_variance(),
+            spread.least()};
 }
 
-/// Square of the expectation of independent values: the mean product of two of them. Its variance:
-/// the square of that less the mean product of four.
+/// Square of the expectation mu of independent values: the mean product of two of them. Its
+/// variance is 4 mu^2 sigma^2 / K + 2 sigma^4 / (K (K - 1)), for any distribution.
 Sum square_term(const Values& values) {
     std::array<double, 5> e{1, 0, 0, 0, 0}; // elementary symmetric polynomials
     for (const double value : values)
         for (std::size_t j = 4; j > 0; --j)
             e[j] += value * e[j - 1];
-    const double square = 2 * e[2] / (K * (K - 1));
-    return {square, square * square - 24 * e[4] / kQuadruples};
+    // mu^2 sigma^2: products x y z^2 of distinct values, less products of four.
+    const double mixed =
+        2 * (e[1] * e[3] - 4 * e[4]) / (K * (K - 1) * (K - 2)) - 24 * e[4] / kQuadruples;
+    const double least = Spread(values).least();
+    return {2 * e[2] / (K * (K - 1)), 4 * mixed / K + least, least};
 }
 
 /// What a reference without parts adds: the square of its own noise, to be taken off.
 Sum reference_term(double square, double variance) {
-    return {-variance, 2 * variance * variance + 4 * std::max(0.0, square - variance) * variance};
+    const double own = 2 * variance * variance + 4 * std::max(0.0, square - variance) * variance;
+    return {-variance, own, own};
 }
 
 /// Sums term(values of a pixel and channel in each run, pixel, channel) over the picture.

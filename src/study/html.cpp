@@ -53,9 +53,11 @@ std::string told(const Estimate& square) {
     const Bounds b = bounds(square);
     if (!b.is_told()) return "below " + percent(b.high);
     const double ends = 100 * (b.high - b.low);
-    const int digits = std::max(0, 1 - static_cast<int>(std::floor(std::log10(ends))));
+    const auto magnitude = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
+    // Two digits of the interval, but four of the value at most.
+    const int digits = std::max(0, std::min(1 - magnitude(ends), 3 - magnitude(100 * b.value)));
     return fmt::format("{0:.{3}f}\u00a0% <span class=\"interval\">({1:.{3}f} to {2:.{3}f})</span>",
-                       100 * b.value, 100 * b.low, 100 * b.high, std::min(digits, 4));
+                       100 * b.value, 100 * b.low, 100 * b.high, digits);
 }
 
 std::string told(const TimeTo& time) {

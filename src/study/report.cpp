@@ -117,6 +117,20 @@ void add_techniques(Page& page, const Results& results) {
     }
 }
 
+void add_end(Page& page, const Results& results) {
+    if (!of_family(results, Family::without).empty()) {
+        page.heading("effects", "What each effect costs");
+        page.paragraph("Each effect was left out of the scene, for what a sample then costs and "
+                       "how far the picture is from the whole.");
+        page.add(effects_table(results));
+    }
+    page.heading("all", "All techniques");
+    page.add(techniques_table(results));
+    page.heading("how", "How this was measured");
+    page.add(method_text(results));
+    page.add(provenance_table(results));
+}
+
 Page make_page(const Results& results, const Gallery& gallery) {
     const std::vector<Choice> choices = choose(results);
     const std::vector<const TechniqueResult*> leaders = leading(results, choices);
@@ -139,17 +153,7 @@ Page make_page(const Results& results, const Gallery& gallery) {
     page.paragraph(agreement_sentence(agreement));
     page.add(agreement_table(agreement));
     add_techniques(page, results);
-    if (!of_family(results, Family::without).empty()) {
-        page.heading("effects", "What each effect costs");
-        page.paragraph("Each effect was left out of the scene, for what a sample then costs and "
-                       "how far the picture is from the whole.");
-        page.add(effects_table(results));
-    }
-    page.heading("all", "All techniques");
-    page.add(techniques_table(results));
-    page.heading("how", "How this was measured");
-    page.add(method_text(results));
-    page.add(provenance_table(results));
+    add_end(page, results);
     return page;
 }
 

@@ -46,7 +46,11 @@ std::vector<Technique> select_techniques(std::vector<Technique> all,
 /// The scene as the technique renders it.
 Scene changed_scene(const Scene& scene, const Technique& technique);
 
-/// Techniques that leave an effect out, if the scene has it (in left_out.cpp).
+/// Parts of that list, for a scene as the baseline renders it: other majorant cells, other phase
+/// functions (media_techniques.cpp), and what leaves out an effect that the scene has
+/// (left_out.cpp).
+void list_cells(const Scene& scene, std::vector<Technique>& techniques);
+void list_phases(const Scene& scene, std::vector<Technique>& techniques);
 void list_left_out(const Scene& scene, std::vector<Technique>& techniques);
 
 } // namespace tyndall::study

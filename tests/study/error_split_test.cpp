@@ -113,6 +113,19 @@ TEST_P(ErrorSplitTest, StatesItsOwnScatter) {
 INSTANTIATE_TEST_SUITE_P(Reference, ErrorSplitTest, testing::Bool(),
                          [](const auto& test) { return test.param ? "InParts" : "AsAFile"; });
 
+TEST(ErrorSplit, IsNotSureOfItselfWhereOnePixelDecides) {
+    // Two runs saw a lamp in the only pixel that matters, two did not.
+    const std::vector<Picture> dark(kRuns, Picture(2, glm::dvec3(1, 1, 1)));
+    const Reference reference = make_reference(dark);
+    std::vector<Picture> runs = dark;
+    runs[0][0] = runs[1][0] = glm::dvec3(10, 10, 10);
+    runs[2][0] = runs[3][0] = glm::dvec3(-8, -8, -8);
+    const ErrorSplit split = split_error(runs, reference);
+    EXPECT_LT(split.bias.value, 0);
+    EXPECT_LT(std::abs(split.bias.value), 2 * split.bias.sd);
+    EXPECT_GT(split.noise.sd, 0);
+}
+
 TEST(ErrorSplit, ReferenceStatesItsError) {
     World world;
     Series error;

@@ -6,28 +6,8 @@ case_name=$1
 program=$2
 scenes=$3
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
+. "$here/../support/command.sh"
 
-fail() {
-  echo "FAILED: $*" >&2
-  echo "--- output:" >&2
-  tail -n 40 out err >&2
-  exit 1
-}
-
-# expect STATUS arguments...: the program exits with it; its output is in the files out and err.
-expect() {
-  wanted=$1
-  shift
-  got=0
-  "$program" "$@" >out 2>err || got=$?
-  [ "$got" = "$wanted" ] || fail "status $got, not $wanted: tyndall $*"
-}
-
-says() { grep -qF -- "$1" out err || fail "does not say: $1"; }
-exists() { [ -s "$1" ] || fail "no file $1"; }
 spent() { grep '"spent_seconds"' "$1"; } # of each technique
 measured() { spent "$1/results.json" | wc -l; }
 

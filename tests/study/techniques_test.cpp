@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "support/scenes.h"
+#include "support/volumes.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -65,6 +66,24 @@ TEST(Techniques, ChangeTheSceneAndNothingElse) {
     EXPECT_EQ(changed("without-environment").lights.size(), 0u);
     EXPECT_EQ(changed("phase-schlick").media[0].phases[0].kind, PhaseFunction::Kind::schlick);
     EXPECT_NEAR(changed("phase-schlick").media[0].phases[0].k, 1.55 * 0.6 - 0.55 * 0.216, 1e-12);
+}
+
+TEST(Techniques, OfGridsHaveCellsOfOtherSizes) {
+    Scene scene = foggy_scene();
+    scene.media[0].density =
+        support::Lattice{}.density([](const glm::ivec3& voxel) { return voxel.x; }, 4);
+    const std::vector<Technique> all = list_techniques(scene);
+    std::set<int> sizes;
+    for (const Technique& technique : all) {
+        if (technique.family != Family::cells) continue;
+        const Scene changed = changed_scene(scene, technique);
+        const auto& density = std::get<GridDensity>(changed.media[0].density);
+        EXPECT_EQ(density.majorants.size, static_cast<int>(technique.parameter));
+        EXPECT_EQ(density.density, std::get<GridDensity>(scene.media[0].density).density);
+        EXPECT_TRUE(technique.is_unbiased);
+        sizes.insert(density.majorants.size);
+    }
+    EXPECT_EQ(sizes, (std::set<int>{1, 16})); // not 4, which it has; 16 is all of it
 }
 
 TEST(Techniques, AreSelectedByPattern) {
