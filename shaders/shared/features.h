@@ -79,7 +79,8 @@ TYNDALL_SHARED_END
     X(26, has_thin_panes, 1) /* some smooth dielectric is a thin pane */                           \
     X(27, has_dispersion, 1) /* some index of refraction differs between channels */               \
     X(28, has_mixtures, 1)   /* some medium has more than one phase function */                    \
-    X(29, has_chromatic_phases, 1) /* some phase function differs between channels */
+    X(29, has_chromatic_phases, 1) /* some phase function differs between channels */              \
+    X(30, has_lit_ball, 1)         /* all light comes from a ball, and a medium goes on around */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -73,6 +73,13 @@ struct CameraRecord {
 };
 TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
 
+/// The ball around all surfaces and lights (scene/lit_ball.h), after the camera.
+struct BallRecord {
+    vec3 center;
+    float radius;
+};
+TYNDALL_CONSTANT uint LIT_BALL_TEXEL = CAMERA_TEXELS;
+
 /// A medium. Coefficients per scene unit.
 struct MediumRecord {
     vec3 sigma_a;

@@ -58,14 +58,29 @@ bool may_scatter(inout Path p) {
     return true;
 }
 
-/// Russian roulette on the throughput alone, late and with an even chance.
-void roulette(inout Path p, uint word) {
+/// How much of the light inside the ball around all surfaces and lights is still to be found at a
+/// place outside of it, by the solid angle of the ball and the medium in between: 1 inside.
+float reach_of_light(vec3 place, Medium medium) {
+    if (has_lit_ball == 0u) return 1.0;
+    const vec4 ball = uintBitsToFloat(fetch_scene(LIT_BALL_TEXEL));
+    const float distance = length(place - ball.xyz);
+    const float share = ball.w / max(distance, ball.w);
+    if (medium.density_kind != DENSITY_HOMOGENEOUS) return share * share;
+    const vec3 sigma_t = medium.sigma_a + medium.sigma_s;
+    const float least = min(sigma_t.x, min(sigma_t.y, sigma_t.z));
+    return share * share * exp(-least * max(distance - ball.w, 0.0));
+}
+
+/// Russian roulette on what a path carries, times how much of the light is within its reach. Late,
+/// and never at worse odds than 1 : 3, so that no weight grows by much.
+void roulette(inout Path p, float reach, uint word) {
     const float w = max(p.throughput.x, max(p.throughput.y, p.throughput.z));
-    if (w >= 1.0 / 16.0) return;
-    if (unit_float(word) < 0.5 || w <= 0.0)
+    const float chance = max(4.0 * w * reach, 0.25);
+    if (chance >= 1.0) return;
+    if (unit_float(word) >= chance || w <= 0.0)
         p.status = STATUS_ENDED;
     else
-        p.throughput *= 2.0;
+        p.throughput /= chance;
 }
 
 /// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is
@@ -93,7 +108,7 @@ void scatter_in_medium(inout Path p, Medium medium, uvec4 words) {
             p.r *= value / p.pdf;
         }
     }
-    roulette(p, words.w);
+    roulette(p, reach_of_light(p.origin, medium), words.w);
 }
 
 /// Leaves a shadow ray from `origin` to trace_shadow.

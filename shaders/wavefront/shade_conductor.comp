@@ -50,7 +50,7 @@ void main() {
             scatter_rough(slot, p, s, shape, words);
         else
             scatter_smooth(p, s, shape);
-        if (p.status != STATUS_ENDED) roulette(p, words.w);
+        if (p.status != STATUS_ENDED) roulette(p, 1.0, words.w);
     }
     depart(slot, p);
 }

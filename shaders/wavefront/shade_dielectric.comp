@@ -76,7 +76,7 @@ void main() {
             scatter_rough(slot, p, s, shape, eta, words);
         else
             scatter_smooth(p, s, shape, eta, unit_float(draw(p, BLOCK_LIGHT).w));
-        if (p.status != STATUS_ENDED) roulette(p, words.w);
+        if (p.status != STATUS_ENDED) roulette(p, 1.0, words.w);
     }
     depart(slot, p);
 }

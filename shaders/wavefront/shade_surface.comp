@@ -18,7 +18,7 @@ void scatter(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, uvec4 w
     const vec2 disk = sample_disk(unit_float(words.y), unit_float(words.z));
     const float cosine = sqrt(max(0.0, 1.0 - dot(disk, disk)));
     leave(p, s, shape, normalize(frame * vec3(disk, cosine)), cosine / PI);
-    roulette(p, words.w);
+    roulette(p, 1.0, words.w);
 }
 
 void main() {

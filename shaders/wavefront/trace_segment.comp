@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "wavefront/interact.glsl"
+#include "wavefront/surface.glsl"
 
 // Finds where the segment of each path ends: at the nearest surface, or before it by a collision in
 // the medium (free flight).
@@ -17,6 +17,7 @@ void main() {
                                              : QUEUE_ENDED; // ENDED: waits for work, or escapes
     if (p.status == STATUS_RAY) {
         hit = trace(p.origin, p.direction, INFINITY, false, NONE);
+        const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);
         if (has_media != 0u && p.medium != VACUUM && (has_scattering != 0u || densities != 0u)) {
             load_sample(slot, p);
@@ -32,6 +33,12 @@ void main() {
             }
         }
         const float before = distance_travelled(slot, 0.0);
+        if (has_emitters != 0u && surface.primitive != NONE) {
+            load_throughput(slot, p);
+            load_radiance(slot, p);
+            p.radiance += expected_emission(p, surface, before);
+            store_radiance(slot, p);
+        }
         store_path(
             PATH_HIT, slot,
             uvec4(floatBitsToUint(hit.t), hit.primitive, hit.instance, floatBitsToUint(before)));

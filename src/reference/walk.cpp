@@ -10,7 +10,6 @@ namespace tyndall::reference {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double roulette_threshold = 1.0 / 16;
 
 double largest(const Rgb& v) {
     return std::max({v.x, v.y, v.z});
@@ -35,6 +34,8 @@ PathTracer::PathTracer(const Scene& scene, const Geometry& geometry, const Light
       is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey) &&
                std::none_of(scene.materials.begin(), scene.materials.end(), is_dispersive)) {
     if (scene.integrator.kind != Integrator::Kind::volpath) return;
+    lit_ball_ = find_lit_ball(scene);
+    if (lit_ball_) lit_ball_->center -= dvec3(scene.camera.world_from_camera[3]);
     for (const Medium& medium : scene.media)
         media_.emplace_back(medium);
 }
@@ -43,6 +44,18 @@ std::optional<MediumLine> PathTracer::medium_line(const Start& start) const {
     if (start.in.medium < 0 || media_.empty()) return std::nullopt;
     return MediumLine(media_[static_cast<std::size_t>(start.in.medium)], *start.in.space,
                       start.ray);
+}
+
+double PathTracer::reach_of_light(const dvec3& place, const Medium& medium) const {
+    if (!lit_ball_) return 1;
+    const double distance = glm::length(place - lit_ball_->center);
+    if (distance <= lit_ball_->radius) return 1;
+    const double share = lit_ball_->radius / distance;
+    const Rgb sigma_t = medium.sigma_a + medium.sigma_s;
+    const double least = std::min({sigma_t.x, sigma_t.y, sigma_t.z});
+    const double seen =
+        medium.is_homogeneous() ? std::exp(-least * (distance - lit_ball_->radius)) : 1;
+    return share * share * seen;
 }
 
 PathTracer::Start PathTracer::leave_surface(const SurfaceHit& hit, const dvec3& direction,
@@ -113,6 +126,7 @@ class PathTracer::Walk {
     /// One segment and what happens at its end. Returns whether the path goes on.
     bool step() {
         const std::optional<SurfaceHit> hit = tracer_.geometry_.intersect(at_.ray, infinity);
+        if (hit) add_expected_emission(*hit);
         if (const auto line = tracer_.medium_line(at_)) {
             const double end = hit ? hit->t : infinity;
             const auto collision = line->is_tracked() ? track(*line, end) : fly(*line, end);
@@ -177,12 +191,26 @@ class PathTracer::Walk {
             throughput_ = after_scattering(value, throughput_);
         }
         at_.ray.direction = direction_around(travel, angle.sine, angle.cosine, unit(words_.z));
-        return survive();
+        return survive(tracer_.reach_of_light(at_.ray.origin, medium));
+    }
+
+    Rgb weighted_emission(const SurfaceHit& hit) const {
+        const Rgb emitted = tracer_.lights_.emitted(hit, at_.ray.direction);
+        return emitted == Rgb(0) ? emitted : throughput_.beta * emitted * hit_weight(hit);
+    }
+
+    /// Emission at the end of the segment, times the chance of getting there where that has a
+    /// closed form; elsewhere the paths that get there count (meet).
+    void add_expected_emission(const SurfaceHit& hit) {
+        const auto line = tracer_.medium_line(at_);
+        if (line && line->is_tracked()) return;
+        const Rgb seen = line ? transmittance(line->medium, line->column(hit.t)) : Rgb(1);
+        radiance_ += seen * weighted_emission(hit);
     }
 
     bool meet(const SurfaceHit& hit) {
-        const Rgb emitted = tracer_.lights_.emitted(hit, at_.ray.direction);
-        if (emitted != Rgb(0)) radiance_ += throughput_.beta * emitted * hit_weight(hit);
+        const auto line = tracer_.medium_line(at_);
+        if (line && line->is_tracked()) radiance_ += weighted_emission(hit);
         const Material& material =
             tracer_.scene_.materials[static_cast<std::size_t>(hit.shape->material)];
         if (material.kind == Material::Kind::interface) {
@@ -217,7 +245,7 @@ class PathTracer::Walk {
         if (scattering->density) vertex_ = {hit.point.position, *scattering->density};
         throughput_.beta *= scattering->weight;
         at_ = leave_surface(hit, glm::normalize(frame * scattering->direction), at_.in);
-        return survive();
+        return survive(1);
     }
 
     /// Direct light at a scattering event: respond(to_light) is its Response, start(to_light) the
@@ -252,13 +280,14 @@ class PathTracer::Walk {
         return mis_weight(vertex_->density, density);
     }
 
-    /// Russian roulette, late and with the same odds for all paths.
-    bool survive() {
+    /// Russian roulette, late, on what the path carries times how much light is within its reach.
+    bool survive(double reach) {
         const double weight = largest(throughput_.beta);
+        const double chance = std::max(4 * weight * reach, 0.25);
         if (weight == 0) return false;
-        if (weight >= roulette_threshold) return true;
-        throughput_.beta *= 2.0;
-        return unit(words_.w) >= 0.5;
+        if (chance >= 1) return true;
+        throughput_.beta /= chance;
+        return unit(words_.w) < chance;
     }
 
     /// The last scattering event, if lights were sampled there.

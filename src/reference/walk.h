@@ -5,6 +5,7 @@
 #include "reference/lights.h"
 #include "reference/medium.h"
 #include "reference/placed_medium.h"
+#include "scene/lit_ball.h"
 
 namespace tyndall::reference {
 
@@ -35,6 +36,8 @@ class PathTracer {
     /// What a light gives through all interfaces on the way; 0 behind any other surface.
     Rgb visibility(Start start, const LightSample& light, const RandomPath& random,
                    std::uint32_t event) const;
+    /// Relative to a place in the ball around all surfaces and lights, at most 1.
+    double reach_of_light(const dvec3& place, const Medium& medium) const;
     /// The start of a ray that leaves a surface in a direction.
     static Start leave_surface(const SurfaceHit& hit, const dvec3& direction,
                                const Surroundings& before);
@@ -44,6 +47,7 @@ class PathTracer {
     const Lights& lights_;
     std::vector<PlacedMedium> media_; ///< Empty if media are ignored.
     bool is_grey_;
+    std::optional<Ball> lit_ball_; ///< In render space.
 };
 
 } // namespace tyndall::reference

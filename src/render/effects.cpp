@@ -229,12 +229,15 @@ void Collector::collect_lights() {
     // Light sampling starts from where light is scattered.
     if (!f.has_scattering && !(f.surface_queues & ~(1u << QUEUE_INTERFACE))) f.lights = 0;
     effects_.samples_lights = f.lights != 0;
+    if (f.has_scattering) effects_.lit_ball = find_lit_ball(scene_);
+    f.has_lit_ball = effects_.lit_ball.has_value();
     add("environment", f.has_environment, environment_by);
     add("area lights", f.lights & LIGHTS_AREA, "AreaLightSource");
     add("grids as lights", f.lights & LIGHTS_VOXELS, "emission of media");
     add("distant lights", f.lights & LIGHTS_DISTANT, "LightSource \"distant\"");
     add("point lights", f.lights & LIGHTS_POINT, "LightSource \"point\"");
     add("spot lights", f.lights & LIGHTS_SPOT, "LightSource \"spot\"");
+    add("roulette by reach of light", f.has_lit_ball, "a medium without end");
 }
 
 bool Collector::is_all_grey() const {

@@ -4,7 +4,7 @@
 /// that are recorded, and the buffers that are allocated.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/lit_ball.h"
 #include "shared/features.h"
 
 #include <optional>
@@ -35,6 +35,7 @@ struct Effects {
     shared::Features features;
     std::optional<Region> region;
     Rgb environment{0}; ///< Sum of the infinite lights.
+    std::optional<Ball> lit_ball;
     bool has_camera_medium = false;
     bool samples_lights = false; ///< Shadow rays are traced.
     std::vector<Effect> list;

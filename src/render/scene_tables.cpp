@@ -20,6 +20,7 @@ namespace {
 using namespace shared;
 
 static_assert(sizeof(CameraRecord) == CAMERA_TEXELS * 16);
+static_assert(sizeof(BallRecord) == 16);
 static_assert(sizeof(MediumRecord) == MEDIUM_TEXELS * 16);
 static_assert(sizeof(ShapeRecord) == SHAPE_TEXELS * 16);
 static_assert(sizeof(LightRecord) == LIGHT_TEXELS * 16);
@@ -266,6 +267,9 @@ void Packer::pack_geometry() {
 
 SceneTables Packer::pack() {
     append(std::vector{camera()}, "camera");
+    if (const auto& ball = effects_.lit_ball)
+        append(std::vector{BallRecord{ball->center - origin_, static_cast<float>(ball->radius)}},
+               "lit ball");
     tables_.push.filter_table = append(filter_table(), "pixel filter");
     volumes_.emplace(scene_, render_from_world_,
                      [this](const std::vector<glm::uvec4>& table, const char* name) {

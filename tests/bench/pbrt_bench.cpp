@@ -62,7 +62,7 @@ BENCHMARK(fused_ratio)->Iterations(6)->Unit(benchmark::kMillisecond);
 void equal_error(benchmark::State& state) {
     const PbrtFigures& pbrt = kPbrt[static_cast<std::size_t>(state.range(0))];
     constexpr int size = 128;
-    const std::uint32_t samples = state.range(0) == 2 ? 16 : state.range(0) > 2 ? 128 : 512;
+    const std::uint32_t samples = state.range(0) < 2 ? 512 : 128;
     Renderer renderer(context(), read_bench_scene(std::string("device/pbrt/") + pbrt.scene, size));
     renderer.render(0, 1);
     const double paths = double(size) * size * samples;
