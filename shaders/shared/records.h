@@ -9,6 +9,7 @@
 #define TYNDALL_RECORDS_H
 
 #include "interop.h"
+#include "sample_histogram.h"
 
 TYNDALL_SHARED_BEGIN
 
@@ -283,8 +284,10 @@ struct Control {
     uint ticket_limit;   ///< Tickets below may be worked on.
     uint folded_batches; ///< Batches of this epoch that are in the film.
     uint fold_count;     ///< Batches that the next fold adds.
+    uint fold_limit; ///< Batches of this epoch that may be folded: the host looks at them first.
     uint finished[BATCH_WINDOW_MAX]; ///< Pixels finished of each batch in the window.
     uint health[HEALTH_COUNT];
+    uint sample_histogram[SAMPLE_BINS]; ///< Of single samples, by luminance.
 };
 
 // Path state: groups of one texel, so that a stage touches only what it needs (a store costs as
@@ -310,6 +313,19 @@ TYNDALL_CONSTANT uint FILM_SUM = 0u;          // rgb, weight
 TYNDALL_CONSTANT uint FILM_COMPENSATION = 1u; // rgb, weight
 TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u;     // rgb, unused
 TYNDALL_CONSTANT uint FILM_TEXELS = 3u;
+
+// Behind the pixels of the film: ERROR_TEXELS for each invocation of update_film, with its part of
+// the sums behind the stated error (stats/error_estimate.h). Norms are roots of sums of squares:
+// squares of squared radiance would overflow.
+TYNDALL_CONSTANT uint ERROR_VARIANCES = 0u;   // sum m c^2 of rgb | norm of D
+TYNDALL_CONSTANT uint ERROR_COVARIANCES = 1u; // sum m c c' of rg, rb, gb | unused
+TYNDALL_CONSTANT uint ERROR_PIXELS = 2u; // sum |mean|^2, norm of R, norm of |mean| sqrt(R) | unused
+TYNDALL_CONSTANT uint ERROR_TEXELS = 3u;
+
+/// Invocations of update_film, each of which folds every fold_lanes-th pixel.
+TYNDALL_SHARED_INLINE uint fold_lanes(uint pixel_count) {
+    return clamp(pixel_count / 16u, 1u, 8192u);
+}
 
 TYNDALL_SHARED_END
 

@@ -3,7 +3,8 @@
 #include "wavefront/buffers.glsl"
 
 // One invocation, at the end of a round: empties the queues, and sees which batches are complete.
-// Those are folded into the film next (update_film), and as many new ones may be started.
+// Those are folded into the film next (update_film), up to where the host wants to look at it, and
+// as many new ones may be started.
 
 /// A dispatch of so many invocations; devices need not allow more than 65535 workgroups in one
 /// dimension.
@@ -22,12 +23,13 @@ void main() {
     uint folded = control.folded_batches + control.fold_count;
     control.folded_batches = folded;
     uint count = 0u;
-    while (folded + count < push.batch_count && count < push.window &&
+    const uint limit = min(push.batch_count, control.fold_limit);
+    while (folded + count < limit && count < push.window &&
            control.finished[(folded + count) % push.window] == push.pixel_count) {
         control.finished[(folded + count) % push.window] = 0u;
         ++count;
     }
     control.fold_count = count;
-    control.fold_dispatch = dispatch_size(count == 0u ? 0u : push.pixel_count);
+    control.fold_dispatch = dispatch_size(count == 0u ? 0u : fold_lanes(push.pixel_count));
     control.ticket_limit = push.pixel_count * min(push.batch_count, folded + count + push.window);
 }

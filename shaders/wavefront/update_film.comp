@@ -2,7 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/buffers.glsl"
 
-// Folds complete batches into the film, in order.   batches -> film
+// Folds complete batches into the film, in order, and sums up what tells its error.
+//
+//   batches -> film
 
 /// Adds to a sum what rounding keeps out of it in `compensation` (Neumaier 1974).
 void add_compensated(inout vec4 sum, inout vec4 compensation, vec4 value) {
@@ -13,33 +15,87 @@ void add_compensated(inout vec4 sum, inout vec4 compensation, vec4 value) {
     sum = total;
 }
 
-void main() {
-    const uint pixel = invocation();
-    if (pixel >= push.pixel_count) return;
-    const uint at = pixel * FILM_TEXELS;
-    vec4 sum = load_film(at + FILM_SUM);
-    vec4 compensation = load_film(at + FILM_COMPENSATION);
-    vec4 residual = load_film(at + FILM_RESIDUAL);
-    for (uint i = 0u; i < control.fold_count; ++i) {
-        const uint batch = control.folded_batches + i;
-        const vec4 value = load_batch((batch % push.window) * push.pixel_count + pixel);
-        const uint first = batch_first_sample(push.first_batch + batch);
-        const uint end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));
-        const float before = float(first - min(first, push.first_sample));
-        const float count = float(end - max(first, push.first_sample));
-        const vec4 all = sum + compensation;
-        // Of a filter with negative parts, the weights of a few samples can cancel: there is no
-        // mean yet.
-        if (before > 0.0 && all.w >= 0.5 * before) {
-            // Welford's update by a batch of `count` samples after `before` samples, with the
-            // residual of the ratio estimator sum(w L) / sum(w): for positive filters it is
-            // Welford's exactly.
-            const vec3 d = value.xyz - all.xyz * (value.w / all.w);
-            residual.xyz += d * d * (before / (count * (before + count)));
-        }
-        add_compensated(sum, compensation, value);
+/// Root of the sum of squares, which may be out of range.
+float hypotenuse(float a, float b) {
+    const float larger = max(a, b), smaller = min(a, b);
+    if (smaller == 0.0) return larger;
+    const float ratio = smaller / larger;
+    return larger * sqrt(1.0 + ratio * ratio);
+}
+
+/// Counts a single sample.
+void count_sample(vec4 value) {
+    if (value.w <= 0.0) return;
+    const float luminance = max(dot(value.xyz, LUMINANCE) / value.w, 0.0);
+    atomicAdd(control.sample_histogram[sample_bin(floatBitsToUint(luminance))], 1u);
+}
+
+/// The texels of one pixel.
+struct FilmPixel {
+    vec4 sum;
+    vec4 compensation;
+    vec4 residual;
+};
+
+/// Sums over contrasts (ERROR_*).
+struct BatchErrors {
+    vec4 variances;
+    vec3 covariances;
+};
+
+/// Adds a batch to the pixel, and its contrast to the errors.
+void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
+    const uint first = batch_first_sample(push.first_batch + batch);
+    const uint end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));
+    const float before = float(first - min(first, push.first_sample));
+    const float count = float(end - max(first, push.first_sample));
+    const vec4 all = film.sum + film.compensation;
+    // Of a filter with negative parts, the weights of a few samples can cancel: there is no mean
+    // yet.
+    if (before > 0.0 && all.w >= 0.5 * before) {
+        // Welford's update by a batch of `count` samples after `before` samples, with the residual
+        // of the ratio estimator sum(w L) / sum(w): for positive filters it is Welford's exactly.
+        const vec3 d = value.xyz - all.xyz * (value.w / all.w);
+        const float scale = before / (count * (before + count));
+        const vec3 squares = d * d * scale;
+        film.residual.xyz += squares;
+        errors.variances = vec4(errors.variances.xyz + count * squares,
+                                hypotenuse(errors.variances.w, squares.x + squares.y + squares.z));
+        errors.covariances += count * scale * (d.xxy * d.yzz);
     }
-    store_film(at + FILM_SUM, sum);
-    store_film(at + FILM_COMPENSATION, compensation);
-    store_film(at + FILM_RESIDUAL, residual);
+    if (count == 1.0) count_sample(value);
+    add_compensated(film.sum, film.compensation, value);
+}
+
+void main() {
+    const uint lanes = fold_lanes(push.pixel_count);
+    const uint lane = invocation();
+    if (lane >= lanes) return;
+    BatchErrors batch_errors = BatchErrors(vec4(0), vec3(0));
+    vec3 pixel_errors = vec3(0);
+    for (uint pixel = lane; pixel < push.pixel_count; pixel += lanes) {
+        const uint at = pixel * FILM_TEXELS;
+        FilmPixel film = FilmPixel(load_film(at + FILM_SUM), load_film(at + FILM_COMPENSATION),
+                                   load_film(at + FILM_RESIDUAL));
+        for (uint i = 0u; i < control.fold_count; ++i) {
+            const uint batch = control.folded_batches + i;
+            fold(batch, load_batch((batch % push.window) * push.pixel_count + pixel), film,
+                 batch_errors);
+        }
+        store_film(at + FILM_SUM, film.sum);
+        store_film(at + FILM_COMPENSATION, film.compensation);
+        store_film(at + FILM_RESIDUAL, film.residual);
+        if (film.sum.w == 0.0) continue;
+        const vec3 mean = film.sum.xyz / film.sum.w;
+        const float residual = film.residual.x + film.residual.y + film.residual.z;
+        pixel_errors = vec3(pixel_errors.x + dot(mean, mean), hypotenuse(pixel_errors.y, residual),
+                            hypotenuse(pixel_errors.z, length(mean) * sqrt(residual)));
+    }
+    const uint at = push.pixel_count * FILM_TEXELS + lane * ERROR_TEXELS;
+    const vec4 variances = load_film(at + ERROR_VARIANCES);
+    store_film(at + ERROR_VARIANCES, vec4(variances.xyz + batch_errors.variances.xyz,
+                                          hypotenuse(variances.w, batch_errors.variances.w)));
+    store_film(at + ERROR_COVARIANCES,
+               load_film(at + ERROR_COVARIANCES) + vec4(batch_errors.covariances, 0.0));
+    store_film(at + ERROR_PIXELS, vec4(pixel_errors, 0.0));
 }

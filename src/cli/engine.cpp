@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "reference/reference.h"
-#include "shared/schedule.h"
+#include "stats/batch_film.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,6 +35,9 @@ class DeviceEngine final : public Engine {
     }
     Image read_film() override { return renderer_.read_film(); }
     std::vector<glm::dvec4> read_sums() override { return renderer_.read_sums(); }
+    std::uint32_t samples() const override { return renderer_.samples(); }
+    std::optional<stats::ErrorEstimate> error() const override { return renderer_.error(); }
+    std::optional<double> tail_share() const override { return renderer_.tail_share(); }
     HealthCounts health() const override { return renderer_.health(); }
     std::string device_text() const override {
         return fmt::format("{} ({})", context_.info().name, context_.info().driver);
@@ -72,8 +75,13 @@ class ReferenceEngine final : public Engine {
 
     std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
                          const KeepGoing& keep_going) override;
-    Image read_film() override;
-    std::vector<glm::dvec4> read_sums() override { return sums_; }
+    Image read_film() override { return film_.image(scene_.film.bounds.width()); }
+    std::vector<glm::dvec4> read_sums() override { return film_.sums(); }
+    std::uint32_t samples() const override { return film_.samples(); }
+    std::optional<stats::ErrorEstimate> error() const override { return film_.error(); }
+    std::optional<double> tail_share() const override {
+        return stats::tail_share(film_.histogram());
+    }
     HealthCounts health() const override {
         HealthCounts counts{};
         counts[shared::HEALTH_NONFINITE] = renderer_.dropped_paths();
@@ -91,70 +99,39 @@ class ReferenceEngine final : public Engine {
         return static_cast<std::size_t>(scene_.film.bounds.width()) *
                static_cast<std::size_t>(scene_.film.bounds.height());
     }
-    void fold(const std::vector<glm::dvec4>& batch, std::uint32_t count);
 
     const Scene& scene_;
     Effects effects_;
     reference::ReferenceRenderer renderer_;
-    std::vector<glm::dvec4> sums_;
-    std::vector<glm::dvec3> residuals_; ///< As shared::FILM_RESIDUAL.
-    std::uint32_t samples_ = 0;
-    std::uint32_t batches_ = 0;
+    stats::BatchFilm film_;
 };
-
-void ReferenceEngine::fold(const std::vector<glm::dvec4>& batch, std::uint32_t count) {
-    const double before = samples_, n = count;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-        if (before > 0 && sums_[i].w >= 0.5 * before) { // as update_film.comp
-            const glm::dvec3 d =
-                glm::dvec3(batch[i]) - glm::dvec3(sums_[i]) * (batch[i].w / sums_[i].w);
-            residuals_[i] += d * d * (before / (n * (before + n)));
-        }
-        sums_[i] += batch[i];
-    }
-    samples_ += count;
-    ++batches_;
-}
 
 std::uint32_t ReferenceEngine::render(std::uint32_t first_sample, std::uint32_t end_sample,
                                       const KeepGoing& keep_going) {
-    sums_.assign(pixel_count(), glm::dvec4(0));
-    residuals_.assign(pixel_count(), glm::dvec3(0));
-    samples_ = batches_ = 0;
-    std::uint32_t batch = 0;
-    while (shared::batch_first_sample(batch + 1) <= first_sample)
-        ++batch;
-    for (std::uint32_t sample = first_sample; sample < end_sample; ++batch) {
-        const std::uint32_t end = std::min(end_sample, shared::batch_first_sample(batch + 1));
+    film_ = stats::BatchFilm(pixel_count());
+    const BatchRange batches(first_sample, end_sample);
+    Progress progress{.end_samples = end_sample - first_sample};
+    std::uint32_t look = batches.next_look(batches.first());
+    for (std::uint32_t batch = batches.first(); batch < batches.end(); ++batch) {
+        const std::uint32_t size = batches.samples_of(batch);
         const auto go_on = [&](double share) {
-            const double begun = samples_ + share * (end - sample);
-            const Progress progress{samples_, end_sample - first_sample,
-                                    begun * static_cast<double>(pixel_count())};
-            return !keep_going || keep_going(progress) || samples_ == 0;
+            progress.paths = (progress.samples + share * size) * static_cast<double>(pixel_count());
+            return !keep_going || keep_going(progress) || progress.samples == 0;
         };
-        const auto sums = renderer_.render(sample, end - sample, go_on);
+        const auto sums = renderer_.render(first_sample + progress.samples, size, go_on);
         if (sums.empty()) break; // told to stop in the middle of the batch
-        fold(sums, end - sample);
-        sample = end;
-        if (!go_on(0)) break;
-    }
-    return samples_;
-}
-
-Image ReferenceEngine::read_film() {
-    const PixelBounds& bounds = scene_.film.bounds;
-    Image image(bounds.width(), bounds.height(),
-                {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        if (sums_[i].w == 0) continue;
-        for (int c = 0; c < 3; ++c) {
-            image.pixels[i * 6 + c] = static_cast<float>(sums_[i][c] / sums_[i].w);
-            if (batches_ > 1)
-                image.pixels[i * 6 + 3 + c] = static_cast<float>(
-                    residuals_[i][c] / (static_cast<double>(batches_ - 1) * samples_));
+        film_.fold(sums, size);
+        progress.samples += size;
+        progress.batches = batch + 1 - batches.first();
+        progress.is_look = batch + 1 == look;
+        if (progress.is_look) {
+            progress.error = film_.error();
+            look = batches.next_look(look);
         }
+        if (!go_on(0)) break;
+        progress.is_look = false;
     }
-    return image;
+    return progress.samples;
 }
 
 } // namespace

@@ -20,6 +20,11 @@ class Engine {
     virtual Image read_film() = 0;
     /// As Renderer::read_sums.
     virtual std::vector<glm::dvec4> read_sums() = 0;
+    /// As Renderer::samples.
+    virtual std::uint32_t samples() const = 0;
+    /// As Renderer::error and Renderer::tail_share.
+    virtual std::optional<stats::ErrorEstimate> error() const = 0;
+    virtual std::optional<double> tail_share() const = 0;
     /// Health counters by kind; all zero where nothing went wrong.
     virtual HealthCounts health() const = 0;
     /// "name (driver)", for people.

@@ -45,6 +45,8 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
         ->allow_extra_args(false);
     command->add_option("--time", o.time, "End after this many seconds")
         ->check(CLI::PositiveNumber);
+    command->add_option("--target-error", o.target_error,
+                        "End when the image's relative error is surely below: 0.005 or 0.5%");
     command
         ->add_option("--write-interval", o.write_interval,
                      "Write the image so far every so many seconds")

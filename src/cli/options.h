@@ -31,8 +31,9 @@ struct RenderOptions {
     SceneOptions scene;
     DeviceOptions device;
     std::vector<std::string> outputs;
-    std::optional<double> time;           ///< Seconds.
-    std::optional<double> write_interval; ///< Seconds.
+    std::optional<double> time;              ///< Seconds.
+    std::optional<std::string> target_error; ///< "0.005" or "0.5%"
+    std::optional<double> write_interval;    ///< Seconds.
     std::string stats;
     bool strict = false;
     bool quiet = false;

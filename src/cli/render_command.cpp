@@ -1,15 +1,18 @@
 #include "cli/engine.h"
 #include "cli/interrupt.h"
+#include "cli/limits.h"
 #include "cli/progress_line.h"
+#include "cli/progress_text.h"
 #include "cli/report.h"
 #include "core/error.h"
 #include "image/image.h"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
-#include <numeric>
+#include <limits>
 
 namespace tyndall::cli {
 namespace {
@@ -30,59 +33,137 @@ class Job {
     bool keep_going(const Progress& progress);
     std::string progress_text(const Progress& progress) const;
     void write_images(double render_seconds);
-    std::uint32_t end_sample() const;
+    Limits limits() const;
+    double pixels() const;
+    Pace pace(const Progress& progress) const;
+    bool is_time_over();
+    void foresee(const Progress& progress);
 
     const RenderOptions& options_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point render_start_;
     Clock::time_point last_write_;
+    Clock::time_point last_asked_;
+    double asking_interval_ = 0; ///< Seconds between the last two calls of keep_going.
     Scene scene_;
+    Limits limits_;
+    Pace first_pace_;
     std::vector<std::string> outputs_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<ProgressLine> line_;
     RenderReport report_;
 };
 
-std::uint32_t Job::end_sample() const {
-    // Without a number of samples, only the clock ends the render.
-    constexpr std::uint32_t unlimited = 1u << 31;
-    if (options_.time && !options_.scene.spp) return unlimited;
-    return static_cast<std::uint32_t>(scene_.samples_per_pixel);
+/// "0.005" or "0.5%" as a fraction.
+double parse_error(const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    auto [rest, failure] = std::from_chars(text.data(), end, value);
+    while (rest != end && *rest == ' ')
+        ++rest;
+    if (rest != end && *rest == '%') {
+        value /= 100;
+        ++rest;
+    }
+    if (failure != std::errc() || rest != end || !(value > 0 && value <= 1))
+        throw Error(ExitStatus::bad_input,
+                    fmt::format("--target-error {}: expected a number above 0 and up to 1, such as "
+                                "0.005, or 0.5%",
+                                text));
+    return value;
+}
+
+Limits Job::limits() const {
+    Limits limits;
+    limits.time = options_.time;
+    if (options_.target_error) limits.target_error = parse_error(*options_.target_error);
+    // Without a number of samples, only the others end the render.
+    const bool is_open = (limits.time || limits.target_error) && !options_.scene.spp;
+    limits.end_samples =
+        is_open ? Limits::kUnlimited : static_cast<std::uint32_t>(scene_.samples_per_pixel);
+    return limits;
+}
+
+double Job::pixels() const {
+    return static_cast<double>(scene_.film.bounds.width()) * scene_.film.bounds.height();
+}
+
+/// Measured since the first call of keep_going: what came before has the costs of a first time in
+/// it.
+Pace Job::pace(const Progress& progress) const {
+    Pace now{.seconds = seconds_since(render_start_), .samples = progress.paths / pixels()};
+    const Pace since = now.samples > first_pace_.samples ? first_pace_ : Pace{};
+    now.samples_per_second =
+        std::max(1e-9, (now.samples - since.samples) / std::max(1e-9, now.seconds - since.seconds));
+    return now;
 }
 
 std::string Job::progress_text(const Progress& progress) const {
-    const double seconds = seconds_since(render_start_);
-    const double pixels =
-        static_cast<double>(scene_.film.bounds.width()) * scene_.film.bounds.height();
-    const double rate = progress.paths / std::max(seconds, 1e-9);
-    double left = (progress.end_samples * pixels - progress.paths) / std::max(rate, 1e-9);
-    if (options_.time) left = std::min(left, *options_.time - seconds_since(start_));
-    left = std::max(0.0, left);
-    return fmt::format("{:5.1f} %  {} spp  {:.2f} Mpaths/s  {} elapsed  {} left",
-                       100 * seconds / std::max(seconds + left, 1e-9), progress.samples,
-                       rate * 1e-6, format_seconds(seconds), format_seconds(left));
+    const Pace now = pace(progress);
+    ProgressFigures figures{.samples = progress.samples,
+                            .error = progress.error,
+                            .paths_per_second = now.samples_per_second * pixels(),
+                            .target_error = limits_.target_error,
+                            .elapsed = now.seconds,
+                            .left = std::numeric_limits<double>::infinity()};
+    if (limits_.end_samples < Limits::kUnlimited)
+        figures.left = now.seconds_to(limits_.end_samples);
+    if (limits_.time)
+        figures.left = std::min(figures.left, std::max(0.0, *limits_.time - seconds_since(start_)));
+    if (progress.error) {
+        figures.target_seconds =
+            now.seconds_to(limits_.target_error ? samples_to_target(progress, *limits_.target_error)
+                                                : 4.0 * progress.samples);
+        if (limits_.target_error) figures.left = std::min(figures.left, figures.target_seconds);
+    }
+    return cli::progress_text(figures);
+}
+
+/// The renderer asks once per submission, with the next one under way. It is time at the one that
+/// leaves the end of what is under way nearest to the limit.
+bool Job::is_time_over() {
+    const Clock::time_point now = Clock::now();
+    asking_interval_ = std::chrono::duration<double>(now - last_asked_).count();
+    last_asked_ = now;
+    return limits_.time && seconds_since(start_) + 1.5 * asking_interval_ >= *limits_.time;
+}
+
+/// Foresees the end, once: as soon as a look tells the error and the pace.
+void Job::foresee(const Progress& progress) {
+    constexpr double seconds_for_pace = 0.5;
+    const Pace now = pace(progress);
+    if (report_.prediction || !progress.is_look || !progress.error ||
+        progress.batches < Limits::kFewestBatches || now.seconds < seconds_for_pace)
+        return;
+    const double before = std::chrono::duration<double>(render_start_ - start_).count();
+    report_.prediction = foresee_end(limits_, progress, now, before);
 }
 
 bool Job::keep_going(const Progress& progress) {
+    if (first_pace_.seconds == 0) first_pace_ = pace(progress);
     if (line_->is_due()) line_->print(progress_text(progress));
-    if (was_interrupted()) {
+    foresee(progress);
+    const bool is_late = is_time_over();
+    if (was_interrupted())
         report_.stopped_by = "signal";
-        return false;
-    }
-    if (options_.time && seconds_since(start_) >= *options_.time) {
+    else if (limits_.meets_target(progress))
+        report_.stopped_by = "target-error";
+    else if (is_late)
         report_.stopped_by = "time";
-        return false;
-    }
+    if (report_.stopped_by != RenderReport::kUnfinished) return false;
     if (options_.write_interval && progress.samples > 0 &&
         seconds_since(last_write_) >= *options_.write_interval) {
         write_images(seconds_since(render_start_));
-        last_write_ = Clock::now();
+        last_write_ = last_asked_ = Clock::now();
     }
     return true;
 }
 
 void Job::write_images(double render_seconds) {
     report_.film = engine_->read_film();
+    report_.samples = engine_->samples();
+    report_.error = engine_->error();
+    report_.tail_share = engine_->tail_share();
     report_.seconds.render = render_seconds;
     report_.seconds.total = seconds_since(start_);
     const ImageAttributes attributes = image_attributes(scene_, *engine_, report_);
@@ -96,6 +177,7 @@ int Job::run() {
     outputs_ = options_.outputs.empty() ? std::vector{scene_.film.filename} : options_.outputs;
     for (const std::string& output : outputs_)
         check_image_extension(output);
+    limits_ = limits();
     engine_ = make_engine(scene_, options_.device);
     if (!options_.quiet)
         std::fprintf(stderr, "%s: %d x %d on %s\n", options_.scene.scene.c_str(),
@@ -103,11 +185,9 @@ int Job::run() {
                      engine_->device_text().c_str());
     watch_interrupts();
     line_ = std::make_unique<ProgressLine>(options_.quiet);
-    render_start_ = last_write_ = Clock::now();
-    report_.samples = engine_->render(0, end_sample(), [&](const Progress& p) {
-        report_.samples = p.samples;
-        return keep_going(p);
-    });
+    render_start_ = last_write_ = last_asked_ = Clock::now();
+    engine_->render(0, limits_.end_samples, [&](const Progress& p) { return keep_going(p); });
+    if (report_.stopped_by == RenderReport::kUnfinished) report_.stopped_by = "spp";
     const double render_seconds = seconds_since(render_start_);
     line_.reset();
     write_images(render_seconds);

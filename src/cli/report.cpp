@@ -1,6 +1,7 @@
 #include "cli/report.h"
 
 #include "cli/progress_line.h"
+#include "cli/progress_text.h"
 #include "core/atomic_file.h"
 
 #include <cmath>
@@ -55,20 +56,35 @@ json health_json(const Engine& engine) {
     return health;
 }
 
-} // namespace
-
-std::optional<double> relative_rmse(const Image& film, std::uint32_t samples) {
-    if (samples < 2) return std::nullopt;
-    double variance = 0, square = 0;
-    for (std::size_t i = 0; i < film.pixels.size(); i += 6)
-        for (std::size_t c = 0; c < 3; ++c) {
-            square +=
-                static_cast<double>(film.pixels[i + c]) * static_cast<double>(film.pixels[i + c]);
-            variance += static_cast<double>(film.pixels[i + 3 + c]);
-        }
-    if (square == 0) return std::nullopt;
-    return std::sqrt(variance / square);
+bool has_heavy_tail(const RenderReport& report) {
+    return report.tail_share && *report.tail_share > stats::kHeavyTailShare;
 }
+
+json error_json(const RenderReport& report) {
+    json error{{"relative_rmse", nullptr},
+               {"interval_95", nullptr},
+               {"half_in_seconds", nullptr},
+               {"tail_share", nullptr},
+               {"heavy_tails", has_heavy_tail(report)}};
+    if (report.tail_share) error["tail_share"] = *report.tail_share;
+    if (report.error) {
+        error["relative_rmse"] = report.error->relative_rmse;
+        error["interval_95"] = {report.error->low, report.error->high};
+        // Errors fall as 1 / sqrt(time): four times as long in all.
+        error["half_in_seconds"] = 3 * report.seconds.render;
+    }
+    return error;
+}
+
+json prediction_json(const RenderReport& report) {
+    if (!report.prediction) return nullptr;
+    const Prediction& p = *report.prediction;
+    return {{"at_spp", p.at_samples},     {"at_seconds", p.at_seconds},
+            {"stopped_by", p.stopped_by}, {"spp", p.samples},
+            {"seconds", p.seconds},       {"relative_rmse", p.relative_rmse}};
+}
+
+} // namespace
 
 ImageAttributes image_attributes(const Scene& scene, const Engine& engine,
                                  const RenderReport& report) {
@@ -92,15 +108,18 @@ ImageAttributes image_attributes(const Scene& scene, const Engine& engine,
         {"tyndall:stopped_by", report.stopped_by},
         {"tyndall:health", health_json(engine).dump()},
     };
-    if (const auto error = relative_rmse(report.film, report.samples))
-        attributes.values.emplace_back("tyndall:relative_rmse", *error);
+    if (report.error) {
+        attributes.values.emplace_back("tyndall:relative_rmse", report.error->relative_rmse);
+        attributes.values.emplace_back("tyndall:error", error_json(report).dump());
+    }
+    if (report.prediction)
+        attributes.values.emplace_back("tyndall:prediction", prediction_json(report).dump());
     return attributes;
 }
 
 void write_stats(const std::string& file, const Scene& scene, const Engine& engine,
                  const RenderReport& report) {
     const double paths = path_count(scene, report);
-    const std::optional<double> error = relative_rmse(report.film, report.samples);
     json stats{{"version", TYNDALL_VERSION},
                {"scene", scene.filename},
                {"scene_sha256", scene.sha256},
@@ -117,7 +136,8 @@ void write_stats(const std::string& file, const Scene& scene, const Engine& engi
                  {"compile", 0.0},
                  {"render", report.seconds.render}}},
                {"paths_per_second", paths / std::max(report.seconds.render, 1e-9)},
-               {"error", {{"relative_rmse", error ? json(*error) : json(nullptr)}}},
+               {"error", error_json(report)},
+               {"prediction", prediction_json(report)},
                {"health", health_json(engine)}};
     engine.describe(stats);
     const std::string text = stats.dump(2) + '\n';
@@ -130,9 +150,13 @@ std::string closing_text(const Scene& scene, const Engine& engine, const RenderR
     std::string text = fmt::format(
         "{} spp in {}, {:.2f} Mpaths/s", report.samples, format_seconds(report.seconds.render),
         path_count(scene, report) * 1e-6 / std::max(report.seconds.render, 1e-9));
-    if (const auto error = relative_rmse(report.film, report.samples))
-        text += fmt::format(", {:.2f} % relative error", 100 * *error);
+    if (report.error) text += ", " + error_text(*report.error);
     text += '\n';
+    if (has_heavy_tail(report))
+        text +=
+            fmt::format("heavy tails: the top 0.1 % of samples carry {:.0f} % of the image; the "
+                        "interval may be too narrow\n",
+                        100 * *report.tail_share);
     const HealthCounts counts = engine.health();
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
         if (counts[kind] > 0)

@@ -2,23 +2,24 @@
 #pragma once
 
 #include "cli/engine.h"
+#include "cli/limits.h"
 
 #include <optional>
 
 namespace tyndall::cli {
 
 struct RenderReport {
+    static constexpr const char* kUnfinished = "unfinished";
     Image film; ///< As last read.
     std::uint32_t samples = 0;
-    std::string stopped_by = "spp"; ///< "spp", "time" or "signal".
+    std::string stopped_by = kUnfinished;      ///< Or "spp", "time", "target-error", "signal".
+    std::optional<stats::ErrorEstimate> error; ///< Of the film.
+    std::optional<double> tail_share;          ///< stats::tail_share
+    std::optional<Prediction> prediction;      ///< Of the end, if the render was long enough.
     struct {
         double total = 0, scene = 0, render = 0;
     } seconds;
 };
-
-/// Relative RMSE of the image: sqrt(sum of variances / sum of squared means) over pixels and
-/// channels. None as long as there is no variance (a single batch, or a picture that is black).
-std::optional<double> relative_rmse(const Image& film, std::uint32_t samples);
 
 /// EXR attributes: pbrt's names and tyndall:*.
 ImageAttributes image_attributes(const Scene& scene, const Engine& engine,

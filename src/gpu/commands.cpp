@@ -110,6 +110,10 @@ void Commands::fill_zero(const Buffer& buffer) {
     vkCmdFillBuffer(commands_, buffer.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
+void Commands::write(const Buffer& to, std::uint64_t offset, std::uint32_t value) {
+    vkCmdUpdateBuffer(commands_, to.get(), offset, sizeof(value), &value);
+}
+
 void Commands::reset(const Timestamps& timestamps) {
     if (context_->timestamp_period() > 0)
         vkCmdResetQueryPool(commands_, timestamps.pool(), 0, timestamps.count());

@@ -44,6 +44,8 @@ class Commands {
     void copy(const Buffer& from, std::uint64_t from_offset, const Buffer& to,
               std::uint64_t to_offset, std::uint64_t bytes);
     void fill_zero(const Buffer& buffer);
+    /// Writes a word. A barrier must follow before it is read.
+    void write(const Buffer& to, std::uint64_t offset, std::uint32_t value);
     /// Before the first mark of a recording.
     void reset(const Timestamps& timestamps);
     /// Notes the time at which everything recorded so far is done.

@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include "core/error.h"
-#include "shared/schedule.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +8,6 @@
 namespace tyndall {
 namespace {
 
-using shared::batch_first_sample;
 using shared::Control;
 using Clock = std::chrono::steady_clock;
 
@@ -18,16 +16,6 @@ constexpr double kSubmitSeconds = 0.04;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The batch that holds the sample.
-std::uint32_t batch_of(std::uint32_t sample) {
-    std::uint32_t low = 0, high = sample + 1; // a batch has a sample at least
-    while (high - low > 1) {
-        const std::uint32_t middle = low + (high - low) / 2;
-        (batch_first_sample(middle) <= sample ? low : high) = middle;
-    }
-    return low;
 }
 
 /// The result of make(), and how long it took.
@@ -62,39 +50,37 @@ Renderer::Renderer(const gpu::Context& context, const Scene& scene, const Tuning
     tables_.texels = {}; // on the device now
 }
 
-std::uint32_t Renderer::samples_of(std::uint32_t batches) const {
-    const std::uint32_t end = std::min(batch_first_sample(batches), end_sample_);
-    return end > first_sample_ ? end - first_sample_ : 0;
-}
-
 std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sample,
                                const KeepGoing& keep_going) {
     if (first_sample >= end_sample)
         throw Error(ExitStatus::failed, "a render needs one sample per pixel or more");
-    first_sample_ = first_sample;
-    end_sample_ = end_sample;
+    batches_ = {first_sample, end_sample};
+    contrasts_ = {};
+    error_.reset();
+    histogram_ = {};
     health_ = health_before_ = {};
     stage_times_.clear();
     for (const std::string& name : wavefront_.stage_names())
         stage_times_.push_back({.name = name});
-    folded_batches_ = batch_of(first_sample);
-    const std::uint32_t end_batch = batch_of(end_sample - 1) + 1;
+    folded_batches_ = contrasted_batches_ = batches_.first();
+    look_batch_ = keep_going ? batches_.next_look(batches_.first()) : batches_.end();
     // Tickets are 32-bit words: an epoch has as many batches as they can number.
     const std::uint32_t per_epoch = std::max(1u, 0x7FFFFFFFu / tables_.push.pixel_count);
-    for (bool first_epoch = true; folded_batches_ < end_batch; first_epoch = false) {
-        const std::uint32_t count = std::min(per_epoch, end_batch - folded_batches_);
+    for (bool first_epoch = true; folded_batches_ < batches_.end(); first_epoch = false) {
+        const std::uint32_t count = std::min(per_epoch, batches_.end() - folded_batches_);
         epoch_batch_ = folded_batches_;
         health_before_ = health_;
         wavefront_.begin_epoch(epoch_batch_, count, first_sample, end_sample, first_epoch);
         if (!run_epoch(count, keep_going)) break;
     }
+    measure_error();
     return samples();
 }
 
 void Renderer::submit(Flight& flight) {
     flight.commands.begin();
     flight.rounds = rounds_;
-    wavefront_.record_rounds(flight.commands, rounds_, flight.clock);
+    wavefront_.record_rounds(flight.commands, rounds_, look_batch_ - epoch_batch_, flight.clock);
     wavefront_.record_readback(flight.commands, flight.control);
     flight.commands.submit();
 }
@@ -118,34 +104,63 @@ void Renderer::take_in(const Control& control) {
     for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind)
         health_[kind] = health_before_[kind] + control.health[kind];
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
+    if (epoch_batch_ == batches_.first())
+        std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());
+}
+
+/// Takes in the error of the film, which must hold folded_batches_.
+void Renderer::measure_error() {
+    for (; contrasted_batches_ < folded_batches_; ++contrasted_batches_)
+        contrasts_.add(batches_.samples_of(contrasted_batches_));
+    error_ =
+        stats::estimate_error(contrasts_, wavefront_.read_error_sums(), tables_.push.pixel_count);
+}
+
+/// Camera paths begun of each pixel; between batches, in proportion.
+double Renderer::samples_begun(std::uint32_t batch_count) const {
+    const double batches = std::min<double>(epoch_share_, batch_count);
+    const auto whole = static_cast<std::uint32_t>(batches);
+    const double first = batches_.samples_before(epoch_batch_ + whole);
+    return first + (batches_.samples_before(epoch_batch_ + whole + 1) - first) * (batches - whole);
+}
+
+/// Looks if it is time to, and asks whether to go on.
+bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
+    if (!keep_going) return true;
+    const bool is_look = folded_batches_ == look_batch_;
+    if (is_look) {
+        measure_error();
+        look_batch_ = batches_.next_look(look_batch_);
+    }
+    const Progress progress{.samples = samples(),
+                            .end_samples = batches_.samples_before(batches_.end()),
+                            .paths = samples_begun(batch_count) * tables_.push.pixel_count,
+                            .error = error_,
+                            .is_look = is_look,
+                            .batches = folded_batches_ - batches_.first()};
+    return keep_going(progress) || samples() == 0;
 }
 
 /// Runs rounds until every batch of the epoch is in the film. False if told to stop before.
 bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going) {
     std::array<Flight, 2> flights{Flight(*context_, stage_times_.size()),
                                   Flight(*context_, stage_times_.size())};
-    const auto samples_begun = [&] { // of a pixel, between batches in proportion
-        const double batches = std::min<double>(epoch_share_, batch_count);
-        const auto whole = static_cast<std::uint32_t>(batches);
-        const double first = samples_of(epoch_batch_ + whole);
-        return first + (samples_of(epoch_batch_ + whole + 1) - first) * (batches - whole);
-    };
     submit(flights[0]);
     Clock::time_point last = Clock::now();
     for (std::size_t i = 0;; i ^= 1) {
         submit(flights[i ^ 1]);
         land(flights[i]);
         const bool is_done = folded_batches_ == epoch_batch_ + batch_count;
-        const Progress progress{samples(), end_sample_ - first_sample_,
-                                samples_begun() * tables_.push.pixel_count};
-        const bool is_told_to_stop = keep_going && !keep_going(progress) && samples() > 0;
-        if (is_done || is_told_to_stop) {
+        const std::uint32_t look = look_batch_;
+        if (!ask(batch_count, keep_going) || is_done) {
             land(flights[i ^ 1]);
             return folded_batches_ == epoch_batch_ + batch_count;
         }
-        // Twice as much or half as much at a time: one submission is no reliable measure.
+        // Twice as much or half as much at a time: one submission is no reliable measure, and none
+        // at all if it had to wait for a look.
         const double seconds = seconds_since(last);
         last = Clock::now();
+        if (look_batch_ != look) continue;
         if (seconds < 0.5 * kSubmitSeconds) rounds_ = std::min(rounds_ * 2, 1024u);
         if (seconds > 2.0 * kSubmitSeconds) rounds_ = std::max(rounds_ / 2, 1u);
     }
@@ -181,7 +196,7 @@ Image Renderer::read_film() {
         const glm::dvec4 sum =
             glm::dvec4(film[shared::FILM_SUM]) + glm::dvec4(film[shared::FILM_COMPENSATION]);
         if (sum.w == 0) return;
-        const double batches = folded_batches_ - batch_of(first_sample_);
+        const double batches = folded_batches_ - batches_.first();
         const double divisor = batches > 1 ? (batches - 1) * samples() : 0;
         for (int c = 0; c < 3; ++c) {
             image.pixels[pixel * 6 + c] = static_cast<float>(sum[c] / sum.w);
@@ -190,6 +205,7 @@ Image Renderer::read_film() {
                     static_cast<float>(film[shared::FILM_RESIDUAL][c] / divisor);
         }
     });
+    measure_error();
     return image;
 }
 

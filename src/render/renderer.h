@@ -2,7 +2,9 @@
 #pragma once
 
 #include "image/image.h"
+#include "render/batch_range.h"
 #include "render/wavefront.h"
+#include "stats/sample_tail.h"
 
 #include <array>
 #include <chrono>
@@ -15,9 +17,16 @@ struct Progress {
     std::uint32_t samples = 0;     ///< Per pixel, in the film.
     std::uint32_t end_samples = 0; ///< Per pixel, asked for.
     double paths = 0;              ///< Camera paths begun.
+    /// Of the film at the last look (BatchRange::next_look), none before or if it cannot be told.
+    std::optional<stats::ErrorEstimate> error;
+    /// Whether this is a look: the film has `batches` batches, and waits. Looks come at the same
+    /// batches in every run, so that who stops at one by `error` gets the same film.
+    bool is_look = false;
+    std::uint32_t batches = 0; ///< In the film.
 };
 
-/// Called every now and then; false asks to stop, which happens once the film has a batch at least.
+/// Called every now and then and at each look; false asks to stop, which happens once the film has
+/// a batch at least.
 using KeepGoing = std::function<bool(const Progress&)>;
 
 using HealthCounts = std::array<std::uint64_t, shared::HEALTH_COUNT>;
@@ -35,6 +44,9 @@ class Renderer {
   public:
     Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning = {});
 
+    /// Seed of the renders that follow, in place of the scene's.
+    void set_seed(std::uint64_t seed) { wavefront_.set_seed(seed); }
+
     /// Renders samples first_sample <= s < end_sample of every pixel, into an empty film. Returns
     /// how many samples the film has in the end: fewer than asked for if told to stop, and then
     /// whole batches.
@@ -49,7 +61,11 @@ class Renderer {
     std::vector<glm::dvec4> read_sums();
 
     /// Samples per pixel in the film.
-    std::uint32_t samples() const { return samples_of(folded_batches_); }
+    std::uint32_t samples() const { return batches_.samples_before(folded_batches_); }
+    /// How wrong the film still is, as of the last look, read_film or end of render.
+    const std::optional<stats::ErrorEstimate>& error() const { return error_; }
+    /// stats::tail_share of the samples of the first four batches.
+    std::optional<double> tail_share() const { return stats::tail_share(histogram_); }
     const Effects& effects() const { return effects_; }
     const Wavefront& wavefront() const { return wavefront_; }
     const HealthCounts& health() const { return health_; }
@@ -61,11 +77,13 @@ class Renderer {
   private:
     struct Flight;
 
-    std::uint32_t samples_of(std::uint32_t batches) const;
     bool run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going);
+    bool ask(std::uint32_t batch_count, const KeepGoing& keep_going);
+    double samples_begun(std::uint32_t batch_count) const;
     void submit(Flight& flight);
     void land(Flight& flight);
     void take_in(const shared::Control& control);
+    void measure_error();
     void each_film_pixel(const std::function<void(std::size_t, const glm::vec4*)>& visit);
 
     const gpu::Context* context_;
@@ -74,12 +92,17 @@ class Renderer {
     double build_seconds_;
     Wavefront wavefront_;
     double compile_seconds_;
-    std::uint32_t first_sample_ = 0, end_sample_ = 0;
+    BatchRange batches_;
     std::uint32_t epoch_batch_ = 0;    ///< First batch of the present epoch.
     std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
+    std::uint32_t look_batch_ = 0;     ///< No more are folded before the next look.
     double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
     HealthCounts health_{};
     HealthCounts health_before_{}; ///< Of earlier epochs.
+    stats::BatchContrasts contrasts_;
+    std::uint32_t contrasted_batches_ = 0; ///< End of the batches in contrasts_.
+    std::optional<stats::ErrorEstimate> error_;
+    stats::SampleHistogram histogram_{};
     std::vector<StageTime> stage_times_;
     std::uint32_t rounds_ = 1; ///< Per submission, so that one takes about kSubmitSeconds.
 };

@@ -47,7 +47,8 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     scene_ = {context, "scene", tables.texels.size() * 16, texels};
     paths_ = {context, "paths", std::uint64_t{tuning_.slots} * PATH_GROUPS * 16, texels};
     batches_ = {context, "batches", pixels * push_.window * 16, texels};
-    film_ = {context, "film", pixels * FILM_TEXELS * 16, texels};
+    film_ = {context, "film",
+             (pixels * FILM_TEXELS + fold_lanes(push_.pixel_count) * ERROR_TEXELS) * 16, texels};
     control_ = {context, "control", sizeof(Control), {.indirect = true}};
     queues_ = {
         context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
@@ -80,6 +81,10 @@ void Wavefront::build_stages() {
                                              kind.features(features_))});
         if (kind.input == StageInput::once) schedule_ = stages_.size() - 1;
     }
+}
+
+void Wavefront::set_seed(std::uint64_t seed) {
+    push_.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
 }
 
 void Wavefront::begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
@@ -124,8 +129,10 @@ void Wavefront::record_stage(gpu::Commands& commands, const BuiltStage& built) c
 }
 
 void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
-                              const gpu::Timestamps& clock) const {
+                              std::uint32_t fold_limit, const gpu::Timestamps& clock) const {
     commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
+    commands.write(control_, offsetof(Control, fold_limit), fold_limit);
+    commands.barrier();
     commands.reset(clock);
     commands.mark(clock, 0);
     for (std::uint32_t round = 0; round < rounds; ++round) {
@@ -153,6 +160,23 @@ void Wavefront::read_film(std::uint32_t first, std::uint32_t count,
     texels.resize(std::size_t{count} * FILM_TEXELS);
     gpu::download(*context_, film_, std::uint64_t{first} * FILM_TEXELS * 16,
                   std::as_writable_bytes(std::span(texels)));
+}
+
+stats::ErrorSums Wavefront::read_error_sums() const {
+    std::vector<glm::vec4> texels(std::size_t{fold_lanes(push_.pixel_count)} * ERROR_TEXELS);
+    gpu::download(*context_, film_, std::uint64_t{push_.pixel_count} * FILM_TEXELS * 16,
+                  std::as_writable_bytes(std::span(texels)));
+    stats::ErrorSums sums;
+    for (std::size_t i = 0; i < texels.size(); i += ERROR_TEXELS) {
+        const glm::dvec4 variances(texels[i + ERROR_VARIANCES]), pixels(texels[i + ERROR_PIXELS]);
+        sums.variances += glm::dvec3(variances);
+        sums.covariances += glm::dvec3(texels[i + ERROR_COVARIANCES]);
+        sums.squares += variances.w * variances.w;
+        sums.mean_squares += pixels.x;
+        sums.residual_squares += pixels.y * pixels.y;
+        sums.mean_residuals += pixels.z * pixels.z;
+    }
+    return sums;
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {

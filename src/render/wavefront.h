@@ -5,6 +5,7 @@
 #include "render/effects.h"
 #include "render/scene_tables.h"
 #include "render/stages.h"
+#include "stats/error_estimate.h"
 
 #include <optional>
 
@@ -23,15 +24,19 @@ class Wavefront {
     Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
               const Tuning& tuning);
 
+    /// Of the random numbers from the next epoch on; before, it is the scene's.
+    void set_seed(std::uint64_t seed);
+
     /// Forgets paths in flight, so that batches first_batch ... first_batch + batch_count - 1 can
     /// be rendered, of which samples first_sample <= s < end_sample. The film is kept, or zeroed
     /// with `clear_film`.
     void begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
                      std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film);
 
-    /// Records `rounds` rounds; each advances every path by at least one event. The first round is
-    /// timed: `clock` has one mark more than there are stages.
-    void record_rounds(gpu::Commands& commands, std::uint32_t rounds,
+    /// Records `rounds` rounds; each advances every path by at least one event. No more than
+    /// `fold_limit` batches of the epoch get into the film. The first round is timed: `clock` has
+    /// one mark more than there are stages.
+    void record_rounds(gpu::Commands& commands, std::uint32_t rounds, std::uint32_t fold_limit,
                        const gpu::Timestamps& clock) const;
     /// Records the copy of the control block into `to` (host visible).
     void record_readback(gpu::Commands& commands, const gpu::Buffer& to) const;
@@ -40,6 +45,8 @@ class Wavefront {
     shared::Control read_control() const;
     /// Copies film texels of the pixels [first, first + count) to the host.
     void read_film(std::uint32_t first, std::uint32_t count, std::vector<glm::vec4>& texels) const;
+    /// What the film's error follows from.
+    stats::ErrorSums read_error_sums() const;
 
     const Tuning& tuning() const { return tuning_; }
     const shared::Features& features() const { return features_; }

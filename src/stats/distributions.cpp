@@ -62,6 +62,17 @@ double student_two_sided(double t, double dof) {
     return 1 - incomplete_beta(log_one_minus_x, log_x, odds / (1 + odds), b, a);
 }
 
+double student_quantile(double p, double dof) {
+    double low = 0, high = 1;
+    while (student_two_sided(high, dof) > p)
+        high *= 2;
+    while (high - low > 1e-12 * high) {
+        const double middle = 0.5 * (low + high);
+        (student_two_sided(middle, dof) > p ? low : high) = middle;
+    }
+    return high;
+}
+
 double chi_squared_tail(double x, double dof) {
     const double a = dof / 2, y = x / 2;
     if (y <= 0) return 1;

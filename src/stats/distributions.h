@@ -9,6 +9,9 @@ double normal_two_sided(double z);
 /// P(|T| >= |t|) of Student's T; dof > 0. 0 for infinite t.
 double student_two_sided(double t, double dof);
 
+/// The t with student_two_sided(t, dof) = p; 1e-6 <= p < 1, dof >= 0.5.
+double student_quantile(double p, double dof);
+
 /// P(X >= x) of a chi-squared X; x >= 0, dof > 0.
 double chi_squared_tail(double x, double dof);
 

@@ -90,9 +90,33 @@ interrupt() {
 }
 
 time_limit() {
-  expect 0 render "$scenes/slab.pbrt" --size 32x32 --spp 100000000 --time 2 --write-interval 0.5 -o a.exr
+  expect 0 render "$scenes/slab.pbrt" --size 32x32 --spp 100000000 --time 2 --write-interval 0.5 -o a.exr --stats a.json
   says spp
-  leaves_only a.exr
+  grep -q '"stopped_by": "time"' a.json || fail "not by time"
+  leaves_only a.exr a.json
+}
+
+target_error() {
+  for bad in 0 -1 abc 5 200% 0.5%% ''; do
+    expect 2 render "$scenes/slab.pbrt" $small -o a.exr "--target-error=$bad"
+    says --target-error
+  done
+  leaves_only
+  expect 0 render "$scenes/slab.pbrt" --size 16x16 --target-error 10% -o a.exr --stats a.json
+  says '% error ('
+  grep -q '"stopped_by": "target-error"' a.json || fail "stopped by something else"
+  high=$(tr -d ' \n' <a.json | sed 's/.*"interval_95":\[[^,]*,\([^]]*\)\].*/\1/')
+  awk "BEGIN { exit !($high < 0.1 && $high > 0.05) }" || fail "upper end $high"
+  cp a.json b.json
+  expect 0 render "$scenes/slab.pbrt" --size 16x16 --target-error 0.1 -o b.exr --slots 300
+  idiff -q -fail 0 a.exr b.exr >out 2>err || fail "same target, other picture"
+  oiiotool --info -v a.exr >out
+  for word in tyndall:error tyndall:relative_rmse target-error; do says "$word"; done
+  # Whichever comes first; the reference renderer has the same figures.
+  expect 0 render "$scenes/slab.pbrt" --size 16x16 --target-error 1% --spp 8 -o a.exr --stats a.json
+  grep -q '"stopped_by": "spp"' a.json || fail "not by samples"
+  expect 0 render "$scenes/slab.pbrt" --size 8x8 --target-error 20% --device reference -o a.exr --stats a.json
+  grep -q '"stopped_by": "target-error"' a.json || fail "the reference does not stop"
 }
 
 verify() {

@@ -177,10 +177,13 @@ TEST_F(Layout, EveryFieldOfTheControlBlockArrives) {
     EXPECT_EQ(control.ticket_limit, next++);
     EXPECT_EQ(control.folded_batches, next++);
     EXPECT_EQ(control.fold_count, next++);
+    EXPECT_EQ(control.fold_limit, next++);
     for (std::uint32_t finished : control.finished)
         EXPECT_EQ(finished, next++);
     for (std::uint32_t health : control.health)
         EXPECT_EQ(health, next++);
+    for (std::uint32_t samples : control.sample_histogram)
+        EXPECT_EQ(samples, next++);
 }
 
 /// One step down a hierarchy reads every field of its node.

@@ -107,10 +107,13 @@ void fill_control() {
     control.ticket_limit = count++;
     control.folded_batches = count++;
     control.fold_count = count++;
+    control.fold_limit = count++;
     for (uint i = 0u; i < uint(BATCH_WINDOW_MAX); ++i)
         control.finished[i] = count++;
     for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)
         control.health[i] = count++;
+    for (uint i = 0u; i < SAMPLE_BINS; ++i)
+        control.sample_histogram[i] = count++;
 }
 
 /// From node 1, with a ray along +z from the point at push.media + i.

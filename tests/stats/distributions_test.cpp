@@ -30,6 +30,13 @@ TEST(Distributions, StudentMatchesKnownValues) {
     EXPECT_EQ(student_two_sided(std::numeric_limits<double>::infinity(), 5), 0);
 }
 
+TEST(Distributions, StudentQuantilesMatchKnownValues) {
+    for (const Known& k : {Known{12.706204736432102, 1, 0.05}, Known{2.3646242510103, 7, 0.05},
+                           Known{1.9623390808264078, 1000, 0.05},
+                           Known{0.7850136812811753, 2.5, 0.5}, Known{130.15458935414782, 3, 1e-6}})
+        EXPECT_NEAR(student_quantile(k.p, k.dof) / k.x, 1, 1e-8) << k.p << ' ' << k.dof;
+}
+
 TEST(Distributions, NormalMatchesKnownValues) {
     for (const auto& [z, p] :
          {std::pair(0.5, 0.61707507745197379), std::pair(1.96, 0.049995790296440872),

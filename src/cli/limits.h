@@ -1,0 +1,57 @@
+/// What ends a render, and when that will be.
+#pragma once
+
+#include "render/renderer.h"
+
+#include <optional>
+#include <string>
+
+namespace tyndall::cli {
+
+/// The limits that the command line sets; the first that is met ends the render.
+struct Limits {
+    std::uint32_t end_samples = 0;      ///< Per pixel; kUnlimited if only the others end it.
+    std::optional<double> time;         ///< Seconds since the program began.
+    std::optional<double> target_error; ///< Upper end of the interval of relative_rmse.
+
+    static constexpr std::uint32_t kUnlimited = 1u << 31;
+    /// Batches before a look may end the render or foresee its end.
+    static constexpr std::uint32_t kFewestBatches = 8;
+
+    /// Whether the target is met; only looks count.
+    bool meets_target(const Progress& progress) const;
+};
+
+/// The end of a render as foreseen in the middle of it: which limit, and how things are then.
+struct Prediction {
+    std::uint32_t at_samples = 0; ///< When it was made: samples per pixel,
+    double at_seconds = 0;        ///< seconds of rendering.
+    std::string stopped_by;       ///< "spp", "time" or "target-error"
+    double samples = 0;           ///< Per pixel.
+    double seconds = 0;           ///< Of rendering.
+    double relative_rmse = 0;
+};
+
+/// How fast a render goes.
+struct Pace {
+    double seconds = 0;            ///< Of rendering so far.
+    double samples = 0;            ///< Per pixel, begun so far.
+    double samples_per_second = 0; ///< Lately; > 0.
+
+    /// Seconds of rendering from now until so many samples per pixel are done.
+    double seconds_to(double wanted) const {
+        return wanted > samples ? (wanted - samples) / samples_per_second : 0;
+    }
+};
+
+/// Foresees the end from a look with an error: errors fall as 1 / sqrt(samples).
+///
+/// @param before  seconds from the beginning of the program to that of the rendering
+Prediction foresee_end(const Limits& limits, const Progress& progress, const Pace& pace,
+                       double before);
+
+/// Samples per pixel at the look that will meet the target: the upper end of the interval falls as
+/// 1 / sqrt(samples).
+double samples_to_target(const Progress& progress, double target_error);
+
+} // namespace tyndall::cli

@@ -1,0 +1,31 @@
+/// The batches of a render of samples first <= s < end of each pixel: those of shared/schedule.h,
+/// the first and the last of them cut if need be. Batches are numbered as there.
+#pragma once
+
+#include <cstdint>
+
+namespace tyndall {
+
+class BatchRange {
+  public:
+    BatchRange() = default;
+    /// first_sample < end_sample
+    BatchRange(std::uint32_t first_sample, std::uint32_t end_sample);
+
+    std::uint32_t first() const { return first_; }
+    std::uint32_t end() const { return end_; }
+    /// Samples of the batches from the first on that are before `batch`.
+    std::uint32_t samples_before(std::uint32_t batch) const;
+    std::uint32_t samples_of(std::uint32_t batch) const {
+        return samples_before(batch + 1) - samples_before(batch);
+    }
+    /// Where to look at the film next, if the batches before `batch` are in it: with two batches,
+    /// then whenever there are a tenth more samples. So there are few looks, and those who stop by
+    /// what they see have few chances to be misled. The end, if there is nothing between.
+    std::uint32_t next_look(std::uint32_t batch) const;
+
+  private:
+    std::uint32_t first_sample_ = 0, end_sample_ = 0, first_ = 0, end_ = 0;
+};
+
+} // namespace tyndall
