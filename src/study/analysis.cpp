@@ -57,6 +57,14 @@ double seconds_of(const TechniqueResult& t, double samples) {
            (b.seconds - a.seconds) * (samples - a.samples) / double(b.samples - a.samples);
 }
 
+/// By how much the time of a technique may seem shorter than that of another without being so, as
+/// far as noise was measured; 10 % at least, for the clock.
+double doubt(const TechniqueResult& a, const TechniqueResult& b) {
+    const auto deviation = [](const Estimate& e) { return e.value > 0 ? e.sd / e.value : 0; };
+    return std::clamp(kInterval * std::hypot(deviation(a.last().noise), deviation(b.last().noise)),
+                      0.1, 1.0);
+}
+
 } // namespace
 
 Bounds bounds(const Estimate& square) {
@@ -127,21 +135,20 @@ std::vector<const TechniqueResult*> of_series(const Results& results, const std:
 }
 
 std::vector<Choice> choose(const Results& results) {
-    constexpr double advantage = 0.9; // clocks are not more exact than that
-    std::vector<Choice> choices;
     const TechniqueResult* baseline = results.find(kBaseline);
+    if (baseline && !baseline->is_measured()) baseline = nullptr;
+    std::vector<Choice> choices;
     for (const double accuracy : kAccuracies) {
-        Choice choice{.accuracy = accuracy};
-        if (baseline && baseline->is_measured()) {
-            choice.baseline = choice.time = time_to(*baseline, accuracy);
-            choice.technique = baseline;
-        }
-        double limit = choice.technique ? advantage * choice.time.seconds : 1e300;
+        Choice choice{.accuracy = accuracy, .technique = baseline};
+        if (baseline) choice.baseline = choice.time = time_to(*baseline, accuracy);
         for (const TechniqueResult* t : contenders(results)) {
             const TimeTo time = time_to(*t, accuracy);
-            if (!time.is_finite() || time.seconds >= limit) continue;
+            if (!time.is_finite() ||
+                (choice.time.is_finite() && time.seconds >= choice.time.seconds))
+                continue;
+            if (baseline && time.seconds > (1 - doubt(*t, *baseline)) * choice.baseline.seconds)
+                continue;
             choice.technique = t, choice.time = time;
-            limit = time.seconds;
         }
         choices.push_back(choice);
     }

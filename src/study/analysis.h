@@ -51,8 +51,9 @@ struct TimeTo {
 };
 TimeTo time_to(const TechniqueResult& technique, double accuracy);
 
-/// The cheapest technique for an accuracy, and what the baseline takes. A technique must be 10 %
-/// cheaper than the baseline to be chosen before it. Null if none gets there.
+/// The cheapest technique for an accuracy, and what the baseline takes. A technique must be cheaper
+/// than the baseline by 10 %, and by more than its own interval, to be chosen before it. Null if
+/// none gets there.
 struct Choice {
     double accuracy = 0;
     const TechniqueResult* technique = nullptr;

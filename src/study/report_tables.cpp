@@ -36,7 +36,8 @@ std::string choice_table(const std::vector<Choice>& choices) {
            element(
                "p",
                "≈: extrapolated beyond the longest run, at its pace. Others lie within what was "
-               "measured. A technique is named before volpath only if it is 10\u00a0% cheaper.",
+               "measured. A technique is named before volpath only if it is 10\u00a0% cheaper, and "
+               "cheaper than its interval is wide.",
                "note");
 }
 

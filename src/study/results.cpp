@@ -59,18 +59,24 @@ struct Cost {
     double fixed = 0, per_sample = 0;
 };
 
-/// A line through the slices, each by its relative deviation.
-Cost fit_cost(const std::vector<Level>& levels) {
-    double w = 0, wn = 0, wt = 0, wnn = 0, wnt = 0, before = 0;
-    for (const Level& level : levels) {
-        const double n = level.slice_samples, t = level.seconds - before, weight = 1 / (t * t);
+/// A line through the slices and the longer render of EqualTime, each by its relative deviation.
+Cost fit_cost(const TechniqueResult& technique) {
+    double w = 0, wn = 0, wt = 0, wnn = 0, wnt = 0;
+    const auto add = [&](double n, double t) {
+        const double weight = 1 / (t * t);
         w += weight, wn += weight * n, wt += weight * t, wnn += weight * n * n;
         wnt += weight * n * t;
+    };
+    double before = 0;
+    for (const Level& level : technique.levels) {
+        add(level.slice_samples, level.seconds - before);
         before = level.seconds;
     }
+    if (technique.equal_time.samples > 0)
+        add(technique.equal_time.samples, technique.equal_time.seconds);
     const double determinant = w * wnn - wn * wn;
     const Cost through_zero{0, wnn > 0 ? wnt / wnn : 0};
-    if (levels.size() < 3 || !(determinant > 0)) return through_zero;
+    if (technique.levels.size() < 2 || !(determinant > 0)) return through_zero;
     const double per_sample = (w * wnt - wn * wt) / determinant;
     const double fixed = (wt - per_sample * wn) / w;
     return per_sample > 0 && fixed > 0 ? Cost{fixed, per_sample} : through_zero;
@@ -79,11 +85,11 @@ Cost fit_cost(const std::vector<Level>& levels) {
 } // namespace
 
 double TechniqueResult::seconds_per_sample() const {
-    return fit_cost(levels).per_sample;
+    return fit_cost(*this).per_sample;
 }
 
 double TechniqueResult::seconds_per_render() const {
-    return fit_cost(levels).fixed;
+    return fit_cost(*this).fixed;
 }
 
 const TechniqueResult* Results::find(const std::string& name) const {
