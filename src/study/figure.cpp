@@ -113,6 +113,7 @@ std::string to_element(std::string svg, const Figure& figure, const std::string&
     svg = replaced(svg, "rgb\\( *1, *0, *(\\d+)\\)", "var(--s$1)");
     svg = replaced(svg, "rgb\\( *0, *0, *221\\)", "var(--axis)");
     svg = replaced(svg, "rgb\\( *0, *0, *238\\)", "var(--grid)");
+    svg = replaced(svg, "color='white'", "color='var(--card)'"); // a rim around each point
     svg = replaced(svg, "fill=\"black\"", "fill=\"var(--text)\"");
     svg = replaced(svg, " font-family=\"sans-serif\"", "");
     svg = replaced(svg, "id=(['\"])", "id=$1" + id + "-");

@@ -32,7 +32,7 @@ struct Figure {
 };
 
 /// Each figure as <svg> elements for a wide page and for a narrow one. Colours are custom
-/// properties of the page: --s0 ... --s6, --axis, --grid, --text.
+/// properties of the page: --s0 ... --s6, --axis, --grid, --text, --card.
 struct DrawnFigure {
     std::string wide, narrow;
 };

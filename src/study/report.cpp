@@ -86,6 +86,10 @@ void add_techniques(Page& page, const Results& results) {
     if (!of_family(results, Family::marching).empty()) {
         page.heading("marching", "Marching, and where it ends");
         page.paragraph(marching_sentence(results));
+        page.add(bias_table(results, "Bias of marching", "Steps",
+                            {{"march-uniform", "Uniform steps"},
+                             {"march-jittered", "Jittered"},
+                             {"march-equiangular", "Equiangular"}}));
         std::vector<const TechniqueResult*> list = of_series(results, "march-uniform");
         if (const TechniqueResult* baseline = results.find(kBaseline);
             baseline && baseline->is_measured())
@@ -97,6 +101,8 @@ void add_techniques(Page& page, const Results& results) {
     if (!of_family(results, Family::orders).empty()) {
         page.heading("orders", "What scattering more than once adds");
         page.paragraph(orders_sentence(results));
+        page.add(bias_table(results, "Bias of ending paths early", "Scattering events at most",
+                            {{"orders", "Bias of the picture"}}));
         page.plot(bias_figure(results, {"orders"}, "orders", "Bias of ending paths early",
                               "scattering events"));
     }

@@ -53,6 +53,29 @@ std::string agreement_table(const Agreement& agreement) {
     return table.html();
 }
 
+std::string bias_table(const Results& results, std::string caption, std::string parameter,
+                       const std::vector<std::pair<std::string, std::string>>& series) {
+    std::vector<std::string> columns{std::move(parameter)};
+    std::map<double, std::vector<std::string>> rows;
+    for (const auto& [name, column] : series) {
+        const auto list = of_series(results, name);
+        if (list.empty()) continue;
+        columns.push_back(column);
+        for (const TechniqueResult* t : list) {
+            std::vector<std::string>& row = rows[t->parameter];
+            row.resize(columns.size() - 2);
+            row.push_back(told(t->last().bias));
+        }
+    }
+    Table table(std::move(caption), columns);
+    for (auto& [value, row] : rows) {
+        row.resize(columns.size() - 1);
+        row.insert(row.begin(), fmt::format("{:g}", value));
+        table.add(row);
+    }
+    return table.html();
+}
+
 std::string effects_table(const Results& results) {
     Table table("Cost of each effect",
                 {"Left out", "A sample then takes", "Share of the time that it costs", "",

@@ -9,6 +9,9 @@ namespace tyndall::study {
 
 std::string choice_table(const std::vector<Choice>& choices);
 std::string agreement_table(const Agreement& agreement);
+/// Bias by parameter, a column for each series: {series, what its column is called}.
+std::string bias_table(const Results& results, std::string caption, std::string parameter,
+                       const std::vector<std::pair<std::string, std::string>>& series);
 std::string effects_table(const Results& results);
 std::string techniques_table(const Results& results);
 std::string provenance_table(const Results& results);

@@ -156,12 +156,19 @@ std::string marching_sentence(const Results& results) {
 std::string orders_sentence(const Results& results) {
     const auto list = of_series(results, "orders");
     if (list.empty()) return "";
-    std::vector<std::string> parts;
-    for (const TechniqueResult* t : list)
-        parts.push_back(fmt::format("{}: {}", t->parameter, told(t->last().bias)));
-    return fmt::format("What is missing if paths end after so many scattering events, as bias of "
-                       "the picture &ndash; {}.",
-                       listed(parts));
+    std::string text = fmt::format(
+        "A path that ends after {} scattering event{} misses what more of them would bring: the "
+        "picture is wrong by {}.",
+        count(static_cast<std::size_t>(list[0]->parameter)), list[0]->parameter == 1 ? "" : "s",
+        told(list[0]->last().bias));
+    const auto untold = std::find_if(list.begin(), list.end(), [](const TechniqueResult* t) {
+        return !bounds(t->last().bias).is_told();
+    });
+    return text + (untold == list.end()
+                       ? fmt::format(" With {:g}, {} is still missing.", list.back()->parameter,
+                                     told(list.back()->last().bias))
+                       : fmt::format(" From {:g} on, nothing that is missing could be told.",
+                                     (*untold)->parameter));
 }
 
 double relative_cost(const Results& results, const TechniqueResult& technique) {
