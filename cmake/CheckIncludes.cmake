@@ -17,12 +17,12 @@ set(rules
   "src/image     | core/ image/"
   "src/gpu       | core/ gpu/ shared/bindings.h shared/features.h"
   "src/render    | core/ volume/ phase/ scene/ image/ gpu/ stats/ render/ shared/ spirv/"
-  "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/interop.h"
+  "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/health.h shared/interop.h"
   "src/stats     | core/ image/ stats/ shared/sample_histogram.h"
   "src/study     | core/ volume/ phase/ scene/ image/ gpu/ render/ stats/ study/ shared/records.h"
-  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ study/ cli/ shared/schedule.h"
+  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ study/ cli/ shared/schedule.h shared/health.h"
   "src/main.cpp  | core/ cli/"
-  "shaders/shared    | interop.h records.h sample_histogram.h"
+  "shaders/shared    | health.h interop.h records.h sample_histogram.h"
   "shaders/lib       | shared/ lib/"
   "shaders/wavefront | shared/ lib/ wavefront/.*glsl")
 

@@ -26,8 +26,9 @@ TYNDALL_CONSTANT int STORAGE_TWIN = 5;
 TYNDALL_CONSTANT int BINDING_CONTROL =
     10; // struct Control: tickets, queue sizes, indirect dispatches, health
 TYNDALL_CONSTANT int BINDING_QUEUES = 11; // uint slot[], QUEUE_COUNT queues of slot_count each
+TYNDALL_CONSTANT int BINDING_LOG = 12;    // event_records.h: what happens to a path, for a replay
 
-TYNDALL_CONSTANT int BINDING_COUNT = 12;
+TYNDALL_CONSTANT int BINDING_COUNT = 13;
 
 TYNDALL_SHARED_END
 

@@ -80,7 +80,9 @@ TYNDALL_SHARED_END
     X(27, has_dispersion, 1) /* some index of refraction differs between channels */               \
     X(28, has_mixtures, 1)   /* some medium has more than one phase function */                    \
     X(29, has_chromatic_phases, 1) /* some phase function differs between channels */              \
-    X(30, has_lit_ball, 1)         /* all light comes from a ball, and a medium goes on around */
+    X(30, has_lit_ball, 1)         /* all light comes from a ball, and a medium goes on around */  \
+    X(31, event_limit, 4194304)    /* Integrator::event_limit */                                   \
+    X(32, log_capacity, 0)         /* events that a replay keeps; 0: no log */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

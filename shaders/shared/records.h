@@ -8,6 +8,7 @@
 #ifndef TYNDALL_RECORDS_H
 #define TYNDALL_RECORDS_H
 
+#include "health.h"
 #include "interop.h"
 #include "sample_histogram.h"
 
@@ -250,12 +251,6 @@ struct PushConstants {
 
 TYNDALL_CONSTANT int BATCH_WINDOW_MAX = 64;
 
-// Health counters: what went wrong, by kind.
-TYNDALL_CONSTANT int HEALTH_NONFINITE = 0;
-TYNDALL_CONSTANT int HEALTH_NEGATIVE = 1;
-TYNDALL_CONSTANT int HEALTH_MAJORANT = 2; // extinction above its bound: the estimate is biased
-TYNDALL_CONSTANT int HEALTH_COUNT = 3;
-
 // Queues of path slots, by what waits in them. Queue q holds its slots from q * slot_count on.
 TYNDALL_CONSTANT uint QUEUE_VOLUME = 0u;    // collided in a medium
 TYNDALL_CONSTANT uint QUEUE_SURFACE = 1u;   // stand at a diffuse surface
@@ -285,14 +280,20 @@ struct Control {
     uint folded_batches; ///< Batches of this epoch that are in the film.
     uint fold_count;     ///< Batches that the next fold adds.
     uint fold_limit; ///< Batches of this epoch that may be folded: the host looks at them first.
-    uint finished[BATCH_WINDOW_MAX]; ///< Pixels finished of each batch in the window.
-    uint health[HEALTH_COUNT];
+    uint finished[BATCH_WINDOW_MAX];  ///< Pixels finished of each batch in the window.
+    uint health[HEALTH_COUNT];        ///< Paths by kind of mishap (health.h);
+    uint health_pixel[HEALTH_COUNT];  ///< of the first that was noticed, x | y << 16
+    uint health_sample[HEALTH_COUNT]; ///< and the sample.
+    uint worst_majorant_ratio;        ///< Bits of a float.
+    uint lost_throughput_low;  ///< Of paths ended by the event limit, mean over channels: 2^-16.
+    uint lost_throughput_high; ///< Its upper word.
     uint sample_histogram[SAMPLE_BINS]; ///< Of single samples, by luminance.
 };
 
 // Path state: groups of one texel, so that a stage touches only what it needs (a store costs as
 // much as ten loads on a CPU driver).
-TYNDALL_CONSTANT uint PATH_ORIGIN = 0u;     // origin xyz | medium (16 bits), status (4), hero (2)
+TYNDALL_CONSTANT uint PATH_ORIGIN =
+    0u; // origin xyz | medium (16 bits), status (4), hero (2), mishaps (10)
 TYNDALL_CONSTANT uint PATH_DIRECTION = 1u;  // direction xyz | event
 TYNDALL_CONSTANT uint PATH_THROUGHPUT = 2u; // throughput rgb | depth
 TYNDALL_CONSTANT uint PATH_RADIANCE =

@@ -22,6 +22,11 @@ void main() {
         store_throughput(slot, p);
         if (has_emission != 0u) store_radiance(slot, p);
     }
+    if (log_capacity != 0u) { // a vacuum needs them for nothing else
+        load_throughput(slot, p);
+        load_radiance(slot, p);
+        log_path(EVENT_INTERFACE, p, s.position, s.shape);
+    }
     p.origin = leave_surface(s, p.direction);
     p.medium = medium_beyond(shape, s, p.direction, p.medium);
     ++p.event;

@@ -51,6 +51,8 @@ uint queue_of_surface(uint primitive) {
 /// Counts a scattering event; false if the path has had its share, and ends.
 bool may_scatter(inout Path p) {
     if (p.depth == max_depth) {
+        note_mishap(HEALTH_EVENT_LIMIT, max_depth < push.max_depth);
+        log_path(EVENT_DEPTH_LIMIT, p);
         p.status = STATUS_ENDED;
         return false;
     }
@@ -75,12 +77,16 @@ float reach_of_light(vec3 place, Medium medium) {
 /// and never at worse odds than 1 : 3, so that no weight grows by much.
 void roulette(inout Path p, float reach, uint word) {
     const float w = max(p.throughput.x, max(p.throughput.y, p.throughput.z));
+    // Without surfaces and voxels there is only spectral MIS, which never exceeds 3.
+    if (geometry == GEOMETRY_BVH) note_mishap(HEALTH_WEIGHT, w * reach > WEIGHT_MAX);
     const float chance = max(4.0 * w * reach, 0.25);
     if (chance >= 1.0) return;
-    if (unit_float(word) >= chance || w <= 0.0)
+    if (unit_float(word) >= chance || w <= 0.0) {
+        log_path(w <= 0.0 ? EVENT_ABSORBED : EVENT_ROULETTE, p);
         p.status = STATUS_ENDED;
-    else
+    } else {
         p.throughput /= chance;
+    }
 }
 
 /// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is

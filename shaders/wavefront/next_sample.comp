@@ -8,6 +8,13 @@
 //
 //   ENDED queue -> ray, batches
 
+void escape(inout Path p, CameraRecord camera) {
+    if (has_media != 0u && p.medium != VACUUM) travel(p, load_medium(p.medium), INFINITY, false);
+    if (has_environment != 0u) p.radiance += p.throughput * camera.environment;
+    log_path(EVENT_ESCAPE, p);
+    p.status = STATUS_ENDED;
+}
+
 void main() {
     const uint slot = dequeue(QUEUE_ENDED);
     if (slot == NONE) return;
@@ -18,14 +25,13 @@ void main() {
     load_radiance(slot, p);
     load_sample(slot, p);
     load_batch_state(slot, p);
-    if (p.status == STATUS_RAY) { // it escapes
-        if (has_media != 0u && p.medium != VACUUM)
-            travel(p, load_medium(p.medium), INFINITY, false);
-        if (has_environment != 0u) p.radiance += p.throughput * camera.environment;
-        p.status = STATUS_ENDED;
+    if (p.status == STATUS_RAY) {
+        if (can_go_on(p))
+            escape(p, camera);
+        else
+            lose(p);
     }
-    if (p.status == STATUS_ENDED) finish_sample(p, camera);
-    report_health();
+    if (p.status == STATUS_ENDED && !finish_sample(p, camera)) report_path(p, camera);
     if (needs_work(p)) take_work(p);
     if (p.status == STATUS_ENDED) {
         begin_sample(p, camera);

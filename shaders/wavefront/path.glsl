@@ -3,6 +3,8 @@
 #define TYNDALL_PATH_GLSL
 
 #include "lib/camera.glsl"
+#include "wavefront/event_log.glsl"
+#include "wavefront/health.glsl"
 #include "wavefront/scene.glsl"
 
 #define STATUS_NEW 0u      // has never had a ticket (state starts as zeros)
@@ -34,6 +36,18 @@ struct Path {
     vec3 r; ///< Spectral ratios (lib/medium.glsl).
 };
 
+/// Logs the path as it arrives at a place.
+void log_path(uint kind, Path p, vec3 position, uint shape) {
+    log_event(kind, p.event, position, p.direction, p.medium, p.throughput, p.radiance, shape);
+}
+void log_path(uint kind, Path p) {
+    log_path(kind, p, p.origin, NONE);
+}
+/// Logs what a light adds to the radiance of the path.
+void log_light(Path p, vec3 origin, vec3 direction, uint medium, vec3 added) {
+    log_event(EVENT_LIGHT, p.event, origin, direction, medium, added, p.radiance, NONE);
+}
+
 void load_ray(uint slot, inout Path p) {
     const uvec4 a = load_path(PATH_ORIGIN, slot);
     const uvec4 b = load_path(PATH_DIRECTION, slot);
@@ -41,12 +55,14 @@ void load_ray(uint slot, inout Path p) {
     p.medium = a.w & 0xFFFFu;
     p.status = a.w >> 16 & 0xFu;
     p.hero = a.w >> 20 & 3u;
+    mishaps = a.w >> 22;
     p.direction = floats(b);
     p.event = b.w;
 }
 void store_origin(uint slot, Path p) {
-    store_path(PATH_ORIGIN, slot,
-               uvec4(floatBitsToUint(p.origin), p.medium | p.status << 16 | p.hero << 20));
+    store_path(
+        PATH_ORIGIN, slot,
+        uvec4(floatBitsToUint(p.origin), p.medium | p.status << 16 | p.hero << 20 | mishaps << 22));
 }
 void store_direction(uint slot, Path p) {
     store_path(PATH_DIRECTION, slot, uvec4(floatBitsToUint(p.direction), p.event));
@@ -101,7 +117,7 @@ void store_batch_state(uint slot, Path p) {
 // Push constants that loops need, read once a kernel: a driver cannot know that stores leave them
 // alone.
 uvec2 seed = push.seed;
-uint max_depth = push.max_depth;
+uint max_depth = min(push.max_depth, event_limit); // each scattering is an event
 
 /// The four random words of a block of the path's present event.
 uvec4 draw(Path p, uint block) {
@@ -133,36 +149,52 @@ void begin_sample(inout Path p, CameraRecord camera) {
     p.hero = 0u;
     if (is_chromatic != 0u) p.hero = min(2u, uint(3.0 * unit_float(draw(p, BLOCK_LIGHT).x)));
     p.status = STATUS_RAY;
-    p.event = 1u;
     p.throughput = vec3(1);
     p.pdf = 0.0;
     p.radiance = vec3(0);
     p.depth = 0u;
     p.r = vec3(1);
+    log_path(EVENT_CAMERA, p);
+    p.event = 1u;
 }
 
-uvec3 mishaps = uvec3(0); ///< What went wrong in this invocation, by kind of health counter.
-
-/// Adds what went wrong to the health counters. Once an invocation: atomics do not belong into
-/// loops.
-void report_health() {
-    for (int kind = 0; kind < HEALTH_COUNT; ++kind)
-        if (mishaps[kind] > 0u) atomicAdd(control.health[kind], mishaps[kind]);
+/// Whether the path may fly another segment: it has a direction, and events left.
+bool can_go_on(Path p) {
+    return p.event < event_limit && is_unit(p.direction);
 }
 
-/// Adds the ended path to the sum of its batch. What is not a radiance is dropped, and counted.
-void finish_sample(inout Path p, CameraRecord camera) {
+/// Ends a path that cannot go on.
+void lose(inout Path p) {
+    note_mishap(HEALTH_EVENT_LIMIT, p.event >= event_limit);
+    log_path(EVENT_LOST, p);
+    p.status = STATUS_ENDED;
+}
+
+bool is_radiance(vec3 v) {
+    return min(min(v.x, v.y), v.z) >= 0.0 && v.x + v.y + v.z <= FLOAT_MAX; // false for NaN
+}
+
+/// Adds the ended path to the sum of its batch; as black if what it has is no radiance, or if it
+/// went nowhere. False if anything went wrong with it: then it is for report_path.
+bool finish_sample(inout Path p, CameraRecord camera) {
     vec3 radiance = p.radiance * camera.exposure;
-    const float least = min(min(radiance.x, radiance.y), radiance.z);
+    const bool is_sound = is_radiance(radiance) && is_unit(p.direction);
+    if (!is_sound) radiance = vec3(0);
     const float most = max(max(radiance.x, radiance.y), radiance.z);
-    const float total = radiance.x + radiance.y + radiance.z;
-    const bool is_finite = abs(total) <= FLOAT_MAX; // false for NaN too
-    const bool is_negative = is_finite && least < 0.0;
-    mishaps += uvec3(is_finite ? 0u : 1u, is_negative ? 1u : 0u, 0u);
-    if (!is_finite || is_negative) radiance = vec3(0);
     if (has_clamp != 0u && most > camera.clamp) radiance *= camera.clamp / most;
     p.sum += vec4(p.weight * radiance, p.weight);
     ++p.path_sample;
+    return is_sound && mishaps == 0u;
+}
+
+/// Counts what went wrong with a path that finish_sample has ended.
+void report_path(Path p, CameraRecord camera) {
+    const vec3 radiance = p.radiance * camera.exposure;
+    const bool is_finite = abs(radiance.x + radiance.y + radiance.z) <= FLOAT_MAX;
+    note_mishap(HEALTH_NONFINITE, !is_finite);
+    note_mishap(HEALTH_NEGATIVE, is_finite && !is_radiance(radiance));
+    note_mishap(HEALTH_DIRECTION, !is_unit(p.direction));
+    report_mishaps(p.xy, p.path_sample - 1u, p.throughput);
 }
 
 /// Sets the path to the first sample of its ticket's batch, if the ticket is due.

@@ -7,6 +7,7 @@
 #define TYNDALL_PHASES_GLSL
 
 #include "lib/phase.glsl"
+#include "wavefront/health.glsl"
 #include "wavefront/scene.glsl"
 
 /// Whether the angle with these complements is at least that of a node (PhaseTableRecord: place).
@@ -124,7 +125,10 @@ vec3 sample_phase(Medium medium, uint hero, vec3 from, float xi, float azimuth) 
         parameter = c.parameter;
     }
     if (is_delta_phase(phase >> PHASE_KIND_SHIFT, parameter)) return parameter > 0.0 ? from : -from;
-    return deflect_by(from, sample_single_phase(phase, parameter, channel, xi), azimuth);
+    const vec2 complements = sample_single_phase(phase, parameter, channel, xi);
+    if ((phases & PHASE_BIT_TABLE) != 0u) // of closed forms, such a cosine gives no direction
+        note_mishap(HEALTH_COSINE, max(complements.x, complements.y) > 1.0 + COSINE_MAX);
+    return deflect_by(from, complements, azimuth);
 }
 
 /// The density with which scattering draws a direction, whichever channel is the hero.

@@ -57,6 +57,7 @@ void scatter_rough(uint slot, inout Path p, SurfacePoint s, ShapeRecord shape, f
         p.throughput *= weight;
         leave(p, s, shape, normalize(frame * wi), pdf);
     } else {
+        log_path(EVENT_ABSORBED, p);
         p.status = STATUS_ENDED;
     }
 }

@@ -16,6 +16,7 @@ void main() {
     const Medium medium = load_medium(p.medium);
     travel(p, medium, t, true);
     p.origin += t * p.direction;
+    log_path(EVENT_COLLISION, p);
     if (may_scatter(p)) {
         if (lights != 0u) cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
         scatter_in_medium(p, medium, draw(p, BLOCK_PATH));

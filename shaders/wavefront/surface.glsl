@@ -42,12 +42,14 @@ void arrive(uint slot, out Path p, out SurfacePoint s, out ShapeRecord shape) {
     const uvec4 texel = load_path(PATH_HIT, slot);
     const Hit hit = Hit(uintBitsToFloat(texel.x), texel.y, texel.z);
     s = surface_point(p.origin, p.direction, hit);
+    note_mishap(HEALTH_COSINE, abs(dot(p.direction, s.shading)) > COSINE_MAX);
     shape = load_shape(s.shape);
     if (has_media == 0u || p.medium == VACUUM) return;
     const Medium medium = load_medium(p.medium);
     travel(p, medium, hit.t, false);
     if (has_emitters != 0u && is_tracked(medium))
         p.radiance += p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t));
+    log_path(EVENT_SURFACE, p, s.position, s.shape);
 }
 
 /// Sends off the shadow ray to a sampled light. `response` is the value of the BSDF times the

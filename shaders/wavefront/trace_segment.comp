@@ -15,7 +15,7 @@ void main() {
     Hit hit = Hit(INFINITY, NONE, NONE);
     uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK
                                              : QUEUE_ENDED; // ENDED: waits for work, or escapes
-    if (p.status == STATUS_RAY) {
+    if (p.status == STATUS_RAY && can_go_on(p)) {
         hit = trace(p.origin, p.direction, INFINITY, false, NONE);
         const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);

@@ -5,18 +5,20 @@
 // Traces shadow rays: what reaches a path from the light it chose.   SHADOW queue -> radiance
 
 /// Transmittance along a part of the ray that no surface interrupts.
-vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p,
-                          inout uint step) {
+vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p, inout uint step,
+                          inout float worst_ratio) {
     const Medium medium = load_medium(index);
-    if (is_tracked(medium)) return track_transmittance(medium, origin, direction, t, p, step);
+    if (is_tracked(medium))
+        return track_transmittance(medium, origin, direction, t, p, step, worst_ratio);
     return transmittance(medium, column_length(medium, origin, direction, t));
 }
 
 /// Transmittance to the light, through any number of interfaces; 0 behind a surface.
-vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint target, Path p) {
+vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint target, Path p,
+                inout float worst_ratio) {
     vec3 result = vec3(1);
     uint step = 0u;
-    for (;;) {
+    for (uint crossings = 0u; crossings < SHADOW_CROSSINGS_MAX; ++crossings) {
         const bool any = has_interfaces == 0u;
         const Hit hit = trace(origin, direction, distance, any, target);
         const bool is_free = hit.primitive == NONE;
@@ -25,7 +27,7 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
             return vec3(0);
         if (has_media != 0u && medium != VACUUM)
             result *= medium_transmittance(medium, origin, direction, is_free ? distance : hit.t, p,
-                                           step);
+                                           step, worst_ratio);
         // A voxel shines only where its medium is.
         if (is_free && (lights & LIGHTS_VOXELS) != 0u && target >> 30 == 1u &&
             medium != (target & 0xFFFFu))
@@ -36,6 +38,8 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
         origin = leave_surface(s, direction);
         distance -= hit.t;
     }
+    note_mishap(HEALTH_EVENT_LIMIT, true);
+    return vec3(0);
 }
 
 void main() {
@@ -46,12 +50,19 @@ void main() {
     const uvec4 c = load_path(PATH_SHADOW + 2u, slot);
     Path p;
     load_radiance(slot, p);
-    if (densities != 0u) {
+    if (densities != 0u || has_interfaces != 0u || log_capacity != 0u) {
         load_ray(slot, p);
         load_sample(slot, p);
-        --p.event; // the one that cast the shadow ray
+        --p.event;    // the one that cast the shadow ray
+        mishaps = 0u; // those of the path are its own
     }
-    const vec3 seen = visibility(floats(a), floats(b), uintBitsToFloat(b.w), a.w, c.w, p);
-    p.radiance += colour(floats(c)) * seen;
+    float worst_ratio = 0.0;
+    const vec3 seen =
+        visibility(floats(a), floats(b), uintBitsToFloat(b.w), a.w, c.w, p, worst_ratio);
+    const vec3 added = colour(floats(c)) * seen;
+    p.radiance += added;
     store_radiance(slot, p);
+    log_light(p, floats(a), floats(b), a.w, added);
+    if (densities != 0u) report_majorant_ratio(worst_ratio);
+    if (densities != 0u || has_interfaces != 0u) report_mishaps(p.xy, p.path_sample, floats(c));
 }

@@ -43,6 +43,7 @@ void main() {
 
     bool goes_on = t < f.t_end, is_real = false;
     uint steps = 0u;
+    float worst_ratio = 0.0;
     do {
         const uvec4 words = draw(p, BLOCK_PATH);
         float bound;
@@ -58,25 +59,26 @@ void main() {
             }
             is_real = unit_float(words.z) < scattered[is_chromatic != 0u ? p.hero : 0u];
             weigh_collision(p, absorbed, scattered, is_real);
+            if (!is_real) log_path(EVENT_NULL_COLLISION, p, p.origin + t * p.direction, NONE);
             const vec3 extinction = absorbed + scattered;
-            if (max(extinction.x, max(extinction.y, extinction.z)) > 1.0001)
-                ++mishaps[HEALTH_MAJORANT];
+            worst_ratio = max(worst_ratio, max(extinction.x, max(extinction.y, extinction.z)));
             ++p.event;
-            goes_on = !is_real && t < f.t_end && !is_black(p.throughput);
+            goes_on = !is_real && t < f.t_end && !is_black(p.throughput) && p.event < event_limit;
         }
     } while (goes_on && ++steps < push.run_length);
 
     p.status = goes_on ? STATUS_TRACKING : is_black(p.throughput) ? STATUS_ENDED : STATUS_RAY;
     if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(t), 0u, 0u, 0u));
     if (is_real) store_path(PATH_HIT, slot, uvec4(floatBitsToUint(t), COLLISION, NONE, hit.w));
+    if (p.status == STATUS_ENDED) log_path(EVENT_ABSORBED, p);
+    report_majorant_ratio(worst_ratio);
     store_origin(slot, p);
     store_direction(slot, p);
     store_throughput(slot, p);
     if (has_emission != 0u) store_radiance(slot, p);
-    report_health();
     if (!goes_on)
-        enqueue(p.status == STATUS_ENDED ? QUEUE_ENDED
-                : is_real                ? QUEUE_VOLUME
-                                         : queue_of_surface(hit.y),
+        enqueue(p.status == STATUS_ENDED || p.event >= event_limit ? QUEUE_ENDED
+                : is_real                                          ? QUEUE_VOLUME
+                                                                   : queue_of_surface(hit.y),
                 slot);
 }

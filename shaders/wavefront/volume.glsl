@@ -207,9 +207,9 @@ Tap tap_field(Medium medium, Field f, float t, float u) {
 }
 
 /// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks
-/// (random.h).
+/// (random.h), `worst_ratio` becomes the largest ratio of extinction to majorant.
 vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_surface, Path p,
-                         inout uint step) {
+                         inout uint step, inout float worst_ratio) {
     float t, bound;
     const Field f = begin_field(medium, origin, direction, t_surface, t);
     vec3 result = vec3(1);
@@ -219,7 +219,9 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
         collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
-            result *= max(1.0 - (tap.sigma_a + tap.sigma_s) / bound, 0.0);
+            const vec3 ratio = (tap.sigma_a + tap.sigma_s) / bound;
+            worst_ratio = max(worst_ratio, max(ratio.x, max(ratio.y, ratio.z)));
+            result *= max(1.0 - ratio, 0.0); // rounding: beyond 1
             collides = max(result.x, max(result.y, result.z)) > 0.0 && t < f.t_end;
         }
     } while (collides);

@@ -8,6 +8,14 @@
 //
 //   ray -> ray, radiance
 
+/// For a log, leaving is an event as it is where there is a hierarchy.
+void log_exit(inout Path p, float t) {
+    p.origin += t * p.direction;
+    log_path(EVENT_INTERFACE, p);
+    p.medium = VACUUM;
+    ++p.event;
+}
+
 /// One segment and its end. Straight-line code: a CPU driver executes both sides of a branch
 /// anyway.
 void advance(inout Path p, Medium medium, vec3 environment) {
@@ -17,6 +25,7 @@ void advance(inout Path p, Medium medium, vec3 environment) {
         float near, far;
         if (intersect_region(p.origin, p.direction, near, far) && near > 0.0) {
             p.origin += near * p.direction;
+            log_path(EVENT_INTERFACE, p);
             p.medium = region.medium;
             ++p.event;
             inside = true;
@@ -33,16 +42,22 @@ void advance(inout Path p, Medium medium, vec3 environment) {
     if (inside) travel(p, medium, t, collided);
     if (collided) {
         p.origin += t * p.direction;
+        log_path(EVENT_COLLISION, p);
         if (may_scatter(p)) {
             if (lights != 0u) {
                 const LightSample light = light_in_medium(p, medium);
-                p.radiance += light.radiance * region_transmittance(p.origin, light.direction,
-                                                                    light.distance, medium);
+                const vec3 added = light.radiance * region_transmittance(p.origin, light.direction,
+                                                                         light.distance, medium);
+                p.radiance += added;
+                if (!is_black(light.radiance))
+                    log_light(p, p.origin, light.direction, p.medium, added);
             }
             scatter_in_medium(p, medium, words);
         }
     } else {
+        if (log_capacity != 0u && geometry != GEOMETRY_NONE && inside) log_exit(p, t);
         if (has_environment != 0u) p.radiance += p.throughput * environment;
+        log_path(EVENT_ESCAPE, p);
         p.status = STATUS_ENDED;
     }
     ++p.event;
@@ -55,6 +70,9 @@ void keep_channels(inout Path p) {
     p.sum.xyz = colour(p.sum.xyz);
 }
 
+/// A path to which something happened ends the work of its lane in this dispatch, so that it is
+/// reported outside of the loops.
+///
 /// Taking up work is rare, but a CPU driver executes what stands in a loop for all lanes each time:
 /// so it stands in an outer loop, and lanes that run out of samples wait for the end of the inner
 /// one.
@@ -73,20 +91,21 @@ void main() {
     load_radiance(slot, p);
     load_sample(slot, p);
     load_batch_state(slot, p);
-    for (uint done = 0u; done < push.run_length; done += chunk) {
+    bool is_sound = true;
+    for (uint done = 0u; done < push.run_length && is_sound; done += chunk) {
         if (needs_work(p)) take_work(p);
         if (p.status == STATUS_WAITING) break;
         for (uint i = 0u; i < chunk; ++i) {
             if (p.status == STATUS_ENDED) {
-                if (p.path_sample == p.batch_end) break;
+                if (p.path_sample == p.batch_end || !is_sound) break;
                 begin_sample(p, camera);
             }
             keep_channels(p);
             advance(p, medium, camera.environment);
-            if (p.status == STATUS_ENDED) finish_sample(p, camera);
+            if (p.status == STATUS_ENDED) is_sound = finish_sample(p, camera);
         }
     }
-    report_health();
+    if (!is_sound) report_path(p, camera);
     store_origin(slot, p);
     store_direction(slot, p);
     store_throughput(slot, p);

@@ -38,7 +38,7 @@ class DeviceEngine final : public Engine {
     std::uint32_t samples() const override { return renderer_.samples(); }
     std::optional<stats::ErrorEstimate> error() const override { return renderer_.error(); }
     std::optional<double> tail_share() const override { return renderer_.tail_share(); }
-    HealthCounts health() const override { return renderer_.health(); }
+    Health health() const override { return renderer_.health(); }
     std::string device_text() const override {
         return fmt::format("{} ({})", context_.info().name, context_.info().driver);
     }
@@ -82,11 +82,7 @@ class ReferenceEngine final : public Engine {
     std::optional<double> tail_share() const override {
         return stats::tail_share(film_.histogram());
     }
-    HealthCounts health() const override {
-        HealthCounts counts{};
-        counts[shared::HEALTH_NONFINITE] = renderer_.dropped_paths();
-        return counts;
-    }
+    Health health() const override { return renderer_.health(); }
     std::string device_text() const override { return "reference (double precision, CPU)"; }
     void describe(json& stats) const override {
         stats["device"] = {{"name", "reference"}, {"driver", "double precision"}, {"type", "cpu"}};

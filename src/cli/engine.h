@@ -25,8 +25,8 @@ class Engine {
     /// As Renderer::error and Renderer::tail_share.
     virtual std::optional<stats::ErrorEstimate> error() const = 0;
     virtual std::optional<double> tail_share() const = 0;
-    /// Health counters by kind; all zero where nothing went wrong.
-    virtual HealthCounts health() const = 0;
+    /// What went wrong.
+    virtual Health health() const = 0;
     /// "name (driver)", for people.
     virtual std::string device_text() const = 0;
     /// Adds what only this engine knows to --stats: device, effects, stages, memory_bytes, seconds.

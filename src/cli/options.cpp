@@ -52,9 +52,12 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
                      "Write the image so far every so many seconds")
         ->check(CLI::PositiveNumber);
     command->add_option("--stats", o.stats, "Write statistics as JSON");
-    command->add_flag("--strict", o.strict, "Fail if any contribution had to be dropped");
+    command->add_option("--replay", o.replay,
+                        "Instead: trace one path, X,Y,SAMPLE, on the device and on the reference, "
+                        "and print both event by event");
+    command->add_flag("--strict", o.strict, "Fail if anything went wrong with any path");
     command->add_flag("--quiet", o.quiet, "No progress");
-    command->callback([&] { status = run_render(o); });
+    command->callback([&] { status = o.replay.empty() ? run_render(o) : run_replay(o); });
 }
 
 void add_verify(CLI::App& app, VerifyOptions& o, int& status) {

@@ -35,6 +35,7 @@ struct RenderOptions {
     std::optional<std::string> target_error; ///< "0.005" or "0.5%"
     std::optional<double> write_interval;    ///< Seconds.
     std::string stats;
+    std::string replay; ///< X,Y,SAMPLE of a path to tell about instead, or "".
     bool strict = false;
     bool quiet = false;
 };
@@ -78,6 +79,7 @@ struct DevicesOptions {
 
 /// Each command's work; returns the exit status. Throws Error.
 int run_render(const RenderOptions& options);
+int run_replay(const RenderOptions& options);
 int run_verify(const VerifyOptions& options);
 int run_study(const StudyOptions& options);
 int run_info(const InfoOptions& options);

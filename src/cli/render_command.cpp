@@ -23,6 +23,26 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// The command of this render, without what does not tell which paths are traced.
+std::string replay_command(const SceneOptions& o) {
+    std::string command = "tyndall render " + o.scene;
+    if (o.seed) command += fmt::format(" --seed {}", *o.seed);
+    if (o.size) command += " --size " + *o.size;
+    if (o.max_depth) command += fmt::format(" --maxdepth {}", *o.max_depth);
+    if (o.integrator) command += " --integrator " + *o.integrator;
+    return command;
+}
+
+/// Why --strict fails: "--strict: 3 nonfinite, 1 negative".
+std::string strict_text(const Health& health) {
+    std::string text;
+    for (std::size_t kind = 0; kind < kHealthNames.size(); ++kind)
+        if (health[kind] > 0)
+            text += fmt::format("{} {} {}", text.empty() ? "--strict:" : ",", health[kind],
+                                kHealthNames[kind]);
+    return text;
+}
+
 /// One render command at work.
 class Job {
   public:
@@ -191,14 +211,14 @@ int Job::run() {
     const double render_seconds = seconds_since(render_start_);
     line_.reset();
     write_images(render_seconds);
-    if (!options_.quiet) std::fputs(closing_text(scene_, *engine_, report_).c_str(), stderr);
+    if (!options_.quiet) std::fputs(closing_text(scene_, report_).c_str(), stderr);
+    std::fputs(health_text(engine_->health(), replay_command(options_.scene)).c_str(), stderr);
     if (!options_.stats.empty()) write_stats(options_.stats, scene_, *engine_, report_);
     if (engine_->validation_messages() > 0)
         throw Error(ExitStatus::failed, fmt::format("the validation layer had {} messages",
                                                     engine_->validation_messages()));
-    const HealthCounts health = engine_->health();
-    if (options_.strict && std::any_of(health.begin(), health.end(), [](auto n) { return n > 0; }))
-        throw Error(ExitStatus::failed, "contributions were dropped (--strict); see above");
+    const Health health = engine_->health();
+    if (options_.strict && !health.is_good()) throw Error(ExitStatus::failed, strict_text(health));
     const bool interrupted = report_.stopped_by == "signal";
     return static_cast<int>(interrupted ? ExitStatus::interrupted : ExitStatus::done);
 }

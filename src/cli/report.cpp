@@ -50,9 +50,15 @@ glm::dmat4 ndc_from_camera(const Scene& scene) {
 
 json health_json(const Engine& engine) {
     json health = json::object();
-    const HealthCounts counts = engine.health();
-    for (std::size_t kind = 0; kind < counts.size(); ++kind)
-        health[kHealthNames[kind]] = counts[kind];
+    const Health counts = engine.health();
+    for (std::size_t kind = 0; kind < kHealthNames.size(); ++kind) {
+        const shared::Mishap& mishap = counts.kinds[kind];
+        health[kHealthNames[kind]] = mishap.count;
+        if (mishap.count > 0)
+            health["first"][kHealthNames[kind]] = {mishap.x, mishap.y, mishap.sample};
+    }
+    health["worst_majorant_ratio"] = counts.worst_majorant_ratio;
+    health["lost_throughput"] = counts.lost_throughput;
     return health;
 }
 
@@ -146,7 +152,24 @@ void write_stats(const std::string& file, const Scene& scene, const Engine& engi
     out.commit();
 }
 
-std::string closing_text(const Scene& scene, const Engine& engine, const RenderReport& report) {
+std::string health_text(const Health& health, const std::string& replay_command) {
+    std::string text;
+    for (std::size_t kind = 0; kind < kHealthNames.size(); ++kind) {
+        const shared::Mishap& mishap = health.kinds[kind];
+        if (mishap.count == 0) continue;
+        text += fmt::format("warning: {} {}", mishap.count, shared::kHealthTexts[kind]);
+        if (kind == shared::HEALTH_MAJORANT)
+            text += fmt::format(" (up to {:.4g} times)", health.worst_majorant_ratio);
+        if (kind == shared::HEALTH_EVENT_LIMIT)
+            text += fmt::format(" (they carried {:.4g} in all)", health.lost_throughput);
+        text += fmt::format(
+            "; first at pixel {0},{1} sample {2}: see it with {3} --replay {0},{1},{2}\n", mishap.x,
+            mishap.y, mishap.sample, replay_command);
+    }
+    return text;
+}
+
+std::string closing_text(const Scene& scene, const RenderReport& report) {
     std::string text = fmt::format(
         "{} spp in {}, {:.2f} Mpaths/s", report.samples, format_seconds(report.seconds.render),
         path_count(scene, report) * 1e-6 / std::max(report.seconds.render, 1e-9));
@@ -157,11 +180,6 @@ std::string closing_text(const Scene& scene, const Engine& engine, const RenderR
             fmt::format("heavy tails: the top 0.1 % of samples carry {:.0f} % of the image; the "
                         "interval may be too narrow\n",
                         100 * *report.tail_share);
-    const HealthCounts counts = engine.health();
-    for (std::size_t kind = 0; kind < counts.size(); ++kind)
-        if (counts[kind] > 0)
-            text += fmt::format("warning: {} contributions dropped: {}\n", counts[kind],
-                                kHealthNames[kind]);
     return text;
 }
 

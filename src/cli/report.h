@@ -29,7 +29,11 @@ ImageAttributes image_attributes(const Scene& scene, const Engine& engine,
 void write_stats(const std::string& file, const Scene& scene, const Engine& engine,
                  const RenderReport& report);
 
-/// Lines for the end of a render: samples, time, error, and what went wrong.
-std::string closing_text(const Scene& scene, const Engine& engine, const RenderReport& report);
+/// One line for each kind of mishap that occurred.
+/// @param replay_command  as a user types it, up to --replay.
+std::string health_text(const Health& health, const std::string& replay_command);
+
+/// A line for the end of a render: samples, time, error.
+std::string closing_text(const Scene& scene, const RenderReport& report);
 
 } // namespace tyndall::cli

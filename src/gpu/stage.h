@@ -18,6 +18,7 @@ struct Bindings {
         texel_buffers{}; ///< shared::BINDING_SCENE ... shared::BINDING_FILM
     const Buffer* control = nullptr;
     const Buffer* queues = nullptr;
+    const Buffer* log = nullptr;
 };
 
 /// The one descriptor set, bound once a command buffer, and the pipeline layout (with push

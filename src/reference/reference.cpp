@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <thread>
 
 namespace tyndall::reference {
@@ -24,13 +25,15 @@ struct ReferenceRenderer::Parts {
     Geometry geometry;
     Lights lights;
     PathTracer tracer;
-    std::atomic<std::uint64_t> dropped{0};
+    std::mutex health_mutex;
+    shared::Health health;
 
     explicit Parts(const Scene& s)
         : scene(s), camera(s), geometry(s, camera.position()),
           lights(s, geometry, camera.position()), tracer(s, geometry, lights) {}
 
-    glm::dvec4 sample(int x, int y, std::uint32_t index);
+    glm::dvec4 sample(int x, int y, std::uint32_t index, PathReport& report) const;
+    void count_mishaps(const PathReport& report, int x, int y, std::uint32_t index);
     void render_tile(int tile, std::uint32_t first, std::uint32_t count, PixelSums& sums);
 
     int tiles_across() const { return (scene.film.bounds.width() + tile_size - 1) / tile_size; }
@@ -39,20 +42,38 @@ struct ReferenceRenderer::Parts {
     }
 };
 
+/// Counts what went wrong with a path.
+void ReferenceRenderer::Parts::count_mishaps(const PathReport& report, int x, int y,
+                                             std::uint32_t index) {
+    if (report.mishaps == 0) return;
+    const std::scoped_lock lock(health_mutex);
+    for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind) {
+        if ((report.mishaps >> kind & 1u) == 0) continue;
+        shared::Mishap& mishap = health.kinds[static_cast<std::size_t>(kind)];
+        if (mishap.count++ > 0) continue;
+        mishap.x = static_cast<std::uint32_t>(x);
+        mishap.y = static_cast<std::uint32_t>(y);
+        mishap.sample = index;
+    }
+    health.worst_majorant_ratio = std::max(health.worst_majorant_ratio, report.majorant_ratio);
+    health.lost_throughput += (report.lost.x + report.lost.y + report.lost.z) / 3;
+}
+
 /// One path: (filter weight * radiance, filter weight).
-glm::dvec4 ReferenceRenderer::Parts::sample(int x, int y, std::uint32_t index) {
+glm::dvec4 ReferenceRenderer::Parts::sample(int x, int y, std::uint32_t index,
+                                            PathReport& report) const {
     const Film& film = scene.film;
     const glm::uvec2 seed(static_cast<std::uint32_t>(scene.seed),
                           static_cast<std::uint32_t>(scene.seed >> 32));
     const RandomPath random{seed, static_cast<std::uint32_t>(y * film.width + x), index};
     const CameraSample camera_sample = camera.sample(x, y, random);
     // The imaging ratio, then pbrt's clamp, which keeps the colour.
-    Rgb radiance = tracer.radiance(camera_sample.ray, random) *
+    Rgb radiance = tracer.radiance(camera_sample.ray, random, report) *
                    (scene.camera.shutter_seconds * film.iso / 100);
-    if (!is_finite(radiance)) {
-        ++dropped;
-        radiance = Rgb(0);
-    }
+    report.note(shared::HEALTH_NONFINITE, !is_finite(radiance));
+    report.note(shared::HEALTH_NEGATIVE,
+                is_finite(radiance) && std::min({radiance.x, radiance.y, radiance.z}) < 0);
+    if (report.is_dropped()) radiance = Rgb(0);
     const double largest = std::max({radiance.x, radiance.y, radiance.z});
     if (largest > film.max_component_value) radiance *= film.max_component_value / largest;
     return {camera_sample.weight * radiance, camera_sample.weight};
@@ -66,8 +87,11 @@ void ReferenceRenderer::Parts::render_tile(int tile, std::uint32_t first, std::u
     for (int y = y0; y < std::min(y0 + tile_size, bounds.y1); ++y) {
         for (int x = x0; x < std::min(x0 + tile_size, bounds.x1); ++x) {
             glm::dvec4 sum(0);
-            for (std::uint32_t i = 0; i < count; ++i)
-                sum += sample(x, y, first + i);
+            for (std::uint32_t i = first; i < first + count; ++i) {
+                PathReport report;
+                sum += sample(x, y, i, report);
+                count_mishaps(report, x, y, i);
+            }
             sums[static_cast<std::size_t>((y - bounds.y0) * bounds.width() + x - bounds.x0)] = sum;
         }
     }
@@ -100,8 +124,18 @@ PixelSums ReferenceRenderer::render(std::uint32_t first_sample, std::uint32_t sa
     return stopped ? PixelSums{} : sums;
 }
 
-std::uint64_t ReferenceRenderer::dropped_paths() const {
-    return parts_->dropped;
+Replay ReferenceRenderer::replay(int x, int y, std::uint32_t sample) const {
+    Replay replay{.camera = parts_->camera.position()};
+    PathReport report{.events = &replay.events};
+    replay.sum = parts_->sample(x, y, sample, report);
+    replay.event_count = replay.events.size();
+    replay.mishaps = report.mishaps;
+    return replay;
+}
+
+shared::Health ReferenceRenderer::health() const {
+    const std::scoped_lock lock(parts_->health_mutex);
+    return parts_->health;
 }
 
 } // namespace tyndall::reference

@@ -1,9 +1,10 @@
 /// The reference renderer: what the device must agree with. Written from the equations, in double
-/// precision, with no code of the device but the definition of random numbers, so that with the
-/// same seed both trace the same paths up to rounding.
+/// precision, with no code of the device but the definitions of random numbers and of what counts
+/// as a mishap, so that with the same seed both trace the same paths up to rounding.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/path_event.h"
+#include "shared/health.h"
 
 #include <cstdint>
 #include <functional>
@@ -32,8 +33,11 @@ class ReferenceRenderer {
     PixelSums render(std::uint32_t first_sample, std::uint32_t sample_count,
                      const std::function<bool(double share_done)>& keep_going = {});
 
-    /// Paths so far whose radiance was not finite; they count as black.
-    std::uint64_t dropped_paths() const;
+    /// Traces the sample of the pixel (x, y) of the picture. Does not count for health().
+    Replay replay(int x, int y, std::uint32_t sample) const;
+
+    /// What went wrong so far.
+    shared::Health health() const;
 
   private:
     struct Parts;

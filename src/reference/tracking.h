@@ -79,15 +79,17 @@ class Flight {
 };
 
 /// Along the whole line, by ratio tracking. draw() gives (tau, u) for each flight, the last one
-/// that leaves the medium included.
-template<class Draw>
-Rgb track_transmittance(const MediumLine& line, double t_end, Draw&& draw) {
+/// that leaves the medium included; see() is told of the extinction over its majorant at each
+/// collision.
+template<class Draw, class See>
+Rgb track_transmittance(const MediumLine& line, double t_end, Draw&& draw, See&& see) {
     Flight flight(line, t_end);
     Rgb result(1);
     while (result != Rgb(0)) {
         const auto [tau, u] = draw();
         const std::optional<TentativeCollision> at = flight.next(tau, u);
         if (!at) break;
+        see(at->absorbed + at->scattered);
         result *= glm::max(1.0 - (at->absorbed + at->scattered), 0.0); // rounding: beyond 1
     }
     return result;

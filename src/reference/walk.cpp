@@ -67,14 +67,14 @@ PathTracer::Start PathTracer::leave_surface(const SurfaceHit& hit, const dvec3& 
 }
 
 Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPath& random,
-                           std::uint32_t event) const {
+                           std::uint32_t event, PathReport& report) const {
     std::uint32_t step = 0;
     const auto draw = [&] {
         const glm::uvec4 words = random.words(event, shared::BLOCK_SHADOW + step++);
         return std::pair(flight_optical_depth(words.x), unit(words.y));
     };
     Rgb result(1);
-    while (true) {
+    for (std::uint32_t crossings = 0; crossings < shared::SHADOW_CROSSINGS_MAX; ++crossings) {
         double distance = infinity;
         if (light.end) {
             const dvec3 offset = *light.end - start.ray.origin;
@@ -88,7 +88,10 @@ Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPa
         if (material && material->kind != Material::Kind::interface) return Rgb(0);
         const double end = hit ? hit->t : distance;
         if (const auto line = medium_line(start))
-            result *= line->is_tracked() ? track_transmittance(*line, end, draw)
+            result *= line->is_tracked() ? track_transmittance(*line, end, draw,
+                                                               [&](const Rgb& extinction) {
+                                                                   report.note_majorant(extinction);
+                                                               })
                                          : transmittance(line->medium, line->column(end));
         const bool is_lit =
             light.medium < 0 || hit ||
@@ -97,30 +100,59 @@ Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPa
         if (!hit || result == Rgb(0)) return result;
         start = leave_surface(*hit, start.ray.direction, start.in);
     }
+    report.note(shared::HEALTH_EVENT_LIMIT, true);
+    return Rgb(0);
 }
 
 /// The state of one path.
 class PathTracer::Walk {
   public:
-    Walk(const PathTracer& tracer, const Ray& ray, const RandomPath& random)
-        : tracer_(tracer),
-          random_(random), at_{ray,
+    Walk(const PathTracer& tracer, const Ray& ray, const RandomPath& random, PathReport& report)
+        : tracer_(tracer), random_(random),
+          report_(report), at_{ray,
                                {tracer.scene_.camera.medium, &tracer.geometry_.world_space()}} {
         if (!tracer_.is_grey_)
             throughput_.hero = choose_hero(unit(random_.words(0, shared::BLOCK_LIGHT).x));
     }
 
     Rgb run() {
+        log(Kind::camera, at_.ray.origin);
         do {
             next_event();
-        } while (step());
+        } while (can_go_on() && step());
         return radiance_;
     }
 
   private:
+    using Kind = PathEvent::Kind;
+
     void next_event() {
         ++event_;
         words_ = random_.words(event_, shared::BLOCK_PATH);
+    }
+
+    bool is_over() const { return event_ >= tracer_.scene_.integrator.event_limit; }
+
+    /// The path has a direction, and events left.
+    bool can_go_on() {
+        const dvec3& direction = at_.ray.direction;
+        const bool is_unit =
+            std::abs(glm::dot(direction, direction) - 1) < shared::LENGTH_ERROR_MAX;
+        if (is_unit && !is_over()) return true;
+        report_.note(shared::HEALTH_DIRECTION, !is_unit);
+        report_.note(shared::HEALTH_EVENT_LIMIT, is_over());
+        if (is_over()) report_.lost = throughput_.beta;
+        return end(Kind::lost);
+    }
+
+    /// After tracking: there is something left of the path.
+    bool is_left() { return throughput_.beta == Rgb(0) ? end(Kind::absorbed) : can_go_on(); }
+
+    /// Counts a scattering event; false if the path has had its share.
+    bool may_scatter() {
+        if (depth_ == tracer_.scene_.integrator.max_depth) return end(Kind::depth_limit);
+        ++depth_;
+        return true;
     }
 
     /// One segment and what happens at its end. Returns whether the path goes on.
@@ -130,11 +162,12 @@ class PathTracer::Walk {
         if (const auto line = tracer_.medium_line(at_)) {
             const double end = hit ? hit->t : infinity;
             const auto collision = line->is_tracked() ? track(*line, end) : fly(*line, end);
-            if (throughput_.beta == Rgb(0)) return false;
+            if (line->is_tracked() && !is_left()) return false;
             if (collision) return collide(line->medium, *collision);
         }
         if (!hit) {
             radiance_ += throughput_.beta * tracer_.lights_.background();
+            log(Kind::escape, at_.ray.origin);
             return false;
         }
         return meet(*hit);
@@ -160,22 +193,25 @@ class PathTracer::Walk {
             if (emission != Rgb(0))
                 radiance_ += throughput_.beta * emission *
                              emission_weight(at->t, emission, at->absorbed + at->scattered);
+            report_.note_majorant(at->absorbed + at->scattered);
             const bool is_real = unit(words_.z) < at->scattered[throughput_.hero];
             throughput_ = after_collision(at->absorbed, at->scattered, throughput_, is_real);
+            if (!is_real) log(Kind::null_collision, at_.ray.origin + at->t * at_.ray.direction);
             next_event();
             if (is_real) return at->t;
-            if (throughput_.beta == Rgb(0)) break;
+            if (throughput_.beta == Rgb(0) || is_over()) break;
         }
         return std::nullopt;
     }
 
     bool collide(const Medium& medium, double distance) {
-        if (depth_ == tracer_.scene_.integrator.max_depth) return false;
-        ++depth_;
         at_.ray.origin += distance * at_.ray.direction;
+        log(Kind::collision, at_.ray.origin);
+        if (!may_scatter()) return false;
         const std::vector<PhaseFunction>& phases = medium.phases;
         const dvec3 travel = at_.ray.direction;
         const ScatteringAngle angle = sample_angle(phases, unit(words_.y), throughput_.hero);
+        note_cosine(angle.cosine);
         vertex_.reset();
         if (!is_delta(phases)) {
             sample_light(
@@ -213,7 +249,9 @@ class PathTracer::Walk {
         if (line && line->is_tracked()) radiance_ += weighted_emission(hit);
         const Material& material =
             tracer_.scene_.materials[static_cast<std::size_t>(hit.shape->material)];
-        if (material.kind == Material::Kind::interface) {
+        const bool is_interface = material.kind == Material::Kind::interface;
+        log(is_interface ? Kind::interface : Kind::surface, hit.point.position, hit.shape);
+        if (is_interface) {
             at_ = leave_surface(hit, at_.ray.direction, at_.in);
             return true;
         }
@@ -221,12 +259,12 @@ class PathTracer::Walk {
     }
 
     bool scatter(const SurfaceHit& hit, const Material& material) {
-        if (depth_ == tracer_.scene_.integrator.max_depth) return false;
-        ++depth_;
+        if (!may_scatter()) return false;
         if (is_dispersive(material)) throughput_ = disperse(throughput_);
         dmat3 frame = frame_around(hit.point.shading_normal);
         const double side = -glm::dot(hit.point.shading_normal, at_.ray.direction);
-        if (side == 0) return false;
+        note_cosine(side);
+        if (side == 0) return end(Kind::absorbed);
         if (side < 0) frame[2] = -frame[2];
         const dvec3 wo = glm::transpose(frame) * -at_.ray.direction;
         const Bsdf bsdf(material, side > 0, throughput_.hero);
@@ -240,7 +278,7 @@ class PathTracer::Walk {
         }
         const double lobe = unit(random_.words(event_, shared::BLOCK_LIGHT).w);
         const auto scattering = bsdf.sample(wo, {unit(words_.y), unit(words_.z), lobe});
-        if (!scattering) return false;
+        if (!scattering) return end(Kind::absorbed);
         vertex_.reset();
         if (scattering->density) vertex_ = {hit.point.position, *scattering->density};
         throughput_.beta *= scattering->weight;
@@ -260,9 +298,13 @@ class PathTracer::Walk {
         if (response.value == Rgb(0)) return;
         const double weight =
             light->is_delta ? 1 : mis_weight(light->probability, response.density);
-        radiance_ += throughput_.beta * response.value * light->radiance *
-                     tracer_.visibility(start(light->direction), *light, random_, event_) *
-                     (weight / light->probability);
+        const Rgb unoccluded =
+            throughput_.beta * response.value * light->radiance * (weight / light->probability);
+        if (unoccluded == Rgb(0)) return;
+        const Start shadow = start(light->direction);
+        const Rgb added = unoccluded * tracer_.visibility(shadow, *light, random_, event_, report_);
+        radiance_ += added;
+        log_light(shadow, added);
     }
 
     /// MIS weight of emission that the path ran into.
@@ -280,14 +322,38 @@ class PathTracer::Walk {
         return mis_weight(vertex_->density, density);
     }
 
+    /// Tells of the path on arrival at a place (render space).
+    void log(PathEvent::Kind kind, const dvec3& place, const Shape* shape = nullptr) {
+        if (!report_.events) return;
+        report_.events->push_back({kind, event_, tracer_.world_point(place), at_.ray.direction,
+                                   tracer_.medium_index(at_), throughput_.beta, radiance_, shape});
+    }
+    void log_light(const Start& shadow, const Rgb& added) {
+        if (!report_.events) return;
+        report_.events->push_back({Kind::light, event_, tracer_.world_point(shadow.ray.origin),
+                                   shadow.ray.direction, tracer_.medium_index(shadow), added,
+                                   radiance_});
+    }
+    /// The path ends; false, as it does not go on.
+    bool end(PathEvent::Kind kind) {
+        log(kind, at_.ray.origin);
+        return false;
+    }
+
+    void note_cosine(double cosine) {
+        report_.note(shared::HEALTH_COSINE, std::abs(cosine) > shared::COSINE_MAX);
+    }
+
     /// Russian roulette, late, on what the path carries times how much light is within its reach.
     bool survive(double reach) {
         const double weight = largest(throughput_.beta);
         const double chance = std::max(4 * weight * reach, 0.25);
-        if (weight == 0) return false;
+        report_.note(shared::HEALTH_WEIGHT, weight * reach > shared::WEIGHT_MAX);
+        if (weight == 0) return end(Kind::absorbed);
         if (chance >= 1) return true;
+        if (unit(words_.w) >= chance) return end(Kind::roulette);
         throughput_.beta /= chance;
-        return unit(words_.w) < chance;
+        return true;
     }
 
     /// The last scattering event, if lights were sampled there.
@@ -298,6 +364,7 @@ class PathTracer::Walk {
 
     const PathTracer& tracer_;
     const RandomPath& random_;
+    PathReport& report_;
     Start at_;
     Throughput throughput_;
     Rgb radiance_{0};
@@ -307,8 +374,9 @@ class PathTracer::Walk {
     glm::uvec4 words_{0};
 };
 
-Rgb PathTracer::radiance(const Ray& camera_ray, const RandomPath& random) const {
-    return Walk(*this, camera_ray, random).run();
+Rgb PathTracer::radiance(const Ray& camera_ray, const RandomPath& random,
+                         PathReport& report) const {
+    return Walk(*this, camera_ray, random, report).run();
 }
 
 } // namespace tyndall::reference

@@ -4,6 +4,7 @@
 #include "reference/geometry.h"
 #include "reference/lights.h"
 #include "reference/medium.h"
+#include "reference/path_report.h"
 #include "reference/placed_medium.h"
 #include "scene/lit_ball.h"
 
@@ -16,7 +17,7 @@ class PathTracer {
 
     /// An unbiased estimate of the radiance that comes in along the ray, from the random numbers of
     /// the events 1, 2, ... (and the hero channel of event 0).
-    Rgb radiance(const Ray& camera_ray, const RandomPath& random) const;
+    Rgb radiance(const Ray& camera_ray, const RandomPath& random, PathReport& report) const;
 
   private:
     class Walk;
@@ -35,9 +36,13 @@ class PathTracer {
     std::optional<MediumLine> medium_line(const Start& start) const;
     /// What a light gives through all interfaces on the way; 0 behind any other surface.
     Rgb visibility(Start start, const LightSample& light, const RandomPath& random,
-                   std::uint32_t event) const;
+                   std::uint32_t event, PathReport& report) const;
     /// Relative to a place in the ball around all surfaces and lights, at most 1.
     double reach_of_light(const dvec3& place, const Medium& medium) const;
+    /// The world, from render space.
+    dvec3 world_point(const dvec3& p) const { return geometry_.world_space().inverse_point(p); }
+    /// That a ray starts in; -1 where media are ignored.
+    int medium_index(const Start& start) const { return media_.empty() ? -1 : start.in.medium; }
     /// The start of a ray that leaves a surface in a direction.
     static Start leave_surface(const SurfaceHit& hit, const dvec3& direction,
                                const Surroundings& before);

@@ -289,6 +289,7 @@ Effects Collector::collect() {
     collect_lights();
     collect_camera();
     effects_.features.is_grey = is_all_grey();
+    effects_.features.event_limit = scene_.integrator.event_limit;
     add_value("channels", effects_.features.is_grey ? "1" : "3");
     return std::move(effects_);
 }

@@ -3,6 +3,8 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace tyndall {
@@ -25,6 +27,23 @@ auto timed(double& seconds, const Make& make) {
     auto result = make();
     seconds = seconds_since(start);
     return result;
+}
+
+/// Adds what the device has counted.
+void add_health(const Control& control, Health& health) {
+    for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind) {
+        shared::Mishap& mishap = health.kinds[kind];
+        if (mishap.count == 0 && control.health[kind] > 0) {
+            mishap.x = control.health_pixel[kind] & 0xFFFF;
+            mishap.y = control.health_pixel[kind] >> 16;
+            mishap.sample = control.health_sample[kind];
+        }
+        mishap.count += control.health[kind];
+    }
+    const double ratio = std::bit_cast<float>(control.worst_majorant_ratio);
+    health.worst_majorant_ratio = std::max(health.worst_majorant_ratio, ratio);
+    health.lost_throughput +=
+        std::ldexp(control.lost_throughput_low, -16) + std::ldexp(control.lost_throughput_high, 16);
 }
 
 } // namespace
@@ -101,8 +120,8 @@ void Renderer::land(Flight& flight) {
 void Renderer::take_in(const Control& control) {
     // The last round's update_film has folded fold_count batches on top of folded_batches.
     folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
-    for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind)
-        health_[kind] = health_before_[kind] + control.health[kind];
+    health_ = health_before_;
+    add_health(control, health_);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
     if (epoch_batch_ == batches_.first())
         std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());

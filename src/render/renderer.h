@@ -29,9 +29,8 @@ struct Progress {
 /// a batch at least.
 using KeepGoing = std::function<bool(const Progress&)>;
 
-using HealthCounts = std::array<std::uint64_t, shared::HEALTH_COUNT>;
-constexpr std::array<const char*, shared::HEALTH_COUNT> kHealthNames{"nonfinite", "negative",
-                                                                     "majorant_exceeded"};
+using shared::Health;
+using shared::kHealthNames;
 
 /// What a stage took so far.
 struct StageTime {
@@ -68,7 +67,8 @@ class Renderer {
     std::optional<double> tail_share() const { return stats::tail_share(histogram_); }
     const Effects& effects() const { return effects_; }
     const Wavefront& wavefront() const { return wavefront_; }
-    const HealthCounts& health() const { return health_; }
+    /// What went wrong so far.
+    const Health& health() const { return health_; }
     const std::vector<StageTime>& stage_times() const { return stage_times_; }
     /// Seconds that packing the scene and building its hierarchy took, and compiling the stages.
     double build_seconds() const { return build_seconds_; }
@@ -97,8 +97,8 @@ class Renderer {
     std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
     std::uint32_t look_batch_ = 0;     ///< No more are folded before the next look.
     double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
-    HealthCounts health_{};
-    HealthCounts health_before_{}; ///< Of earlier epochs.
+    Health health_;
+    Health health_before_; ///< Of earlier epochs.
     stats::BatchContrasts contrasts_;
     std::uint32_t contrasted_batches_ = 0; ///< End of the batches in contrasts_.
     std::optional<stats::ErrorEstimate> error_;

@@ -11,6 +11,9 @@ namespace {
 
 using namespace shared;
 
+/// Bytes before the records of the event log.
+constexpr std::uint64_t kLogHeader = 16;
+
 /// Batches in flight at once: enough work for every path, bounded memory.
 std::uint32_t batch_window(std::uint32_t pixels) {
     constexpr std::uint32_t wanted_items = 1u << 21;
@@ -58,14 +61,19 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
                "voxels",
                tables.voxels.bytes.size(),
                {.texels = true, .texel_format = voxel_format}};
+    log_ = {context,
+            "event log",
+            kLogHeader + std::uint64_t{tuning_.log_capacity} * sizeof(EventRecord),
+            {}};
     gpu::upload(context, scene_, std::as_bytes(std::span(tables.texels)));
     gpu::upload(context, voxels_, tables.voxels.bytes);
 
     descriptors_.emplace(
         context,
-        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_},
+        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_, &log_},
         static_cast<std::uint32_t>(sizeof(push_)));
     features_.workgroup_size = tuning_.workgroup_size;
+    features_.log_capacity = tuning_.log_capacity;
     features_.storage_fallback = descriptors_->storage_fallback();
     features_.primitives = tables.primitives;
     features_.emitters = tables.emitters;
@@ -97,6 +105,7 @@ void Wavefront::begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count
     commands.begin();
     commands.fill_zero(paths_);
     commands.fill_zero(control_);
+    commands.fill_zero(log_);
     if (clear_film) commands.fill_zero(film_);
     commands.barrier();
     commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
@@ -177,6 +186,15 @@ stats::ErrorSums Wavefront::read_error_sums() const {
         sums.mean_residuals += pixels.z * pixels.z;
     }
     return sums;
+}
+
+EventLog Wavefront::read_log() const {
+    EventLog log;
+    gpu::download(*context_, log_, 0, std::as_writable_bytes(std::span(&log.count, 1)));
+    log.events.resize(std::min(log.count, tuning_.log_capacity));
+    if (!log.events.empty())
+        gpu::download(*context_, log_, kLogHeader, std::as_writable_bytes(std::span(log.events)));
+    return log;
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {

@@ -5,6 +5,7 @@
 #include "render/effects.h"
 #include "render/scene_tables.h"
 #include "render/stages.h"
+#include "shared/event_records.h"
 #include "stats/error_estimate.h"
 
 #include <optional>
@@ -16,6 +17,13 @@ struct Tuning {
     std::uint32_t slots = 0;          ///< Paths in flight; 0: chosen for device and scene.
     std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
     std::uint32_t workgroup_size = 0; ///< 0: chosen.
+    std::uint32_t log_capacity = 0;   ///< Events of paths that are kept for a replay.
+};
+
+/// What happened to paths, as far as there was room.
+struct EventLog {
+    std::vector<shared::EventRecord> events;
+    std::uint32_t count = 0; ///< Of events, those included that are not kept.
 };
 
 class Wavefront {
@@ -48,6 +56,9 @@ class Wavefront {
     /// What the film's error follows from.
     stats::ErrorSums read_error_sums() const;
 
+    /// Events of the present epoch, in the order in which stages ran.
+    EventLog read_log() const;
+
     const Tuning& tuning() const { return tuning_; }
     const shared::Features& features() const { return features_; }
     std::vector<std::pair<std::string, std::uint64_t>> memory() const;
@@ -67,7 +78,7 @@ class Wavefront {
     Tuning tuning_;
     shared::PushConstants push_;
     std::vector<std::pair<std::string, std::uint64_t>> table_bytes_;
-    gpu::Buffer scene_, paths_, batches_, film_, voxels_, control_, queues_;
+    gpu::Buffer scene_, paths_, batches_, film_, voxels_, control_, queues_, log_;
     std::optional<gpu::Descriptors> descriptors_;
     std::vector<BuiltStage> stages_; ///< Those that the effects call for.
     std::size_t schedule_ = 0;       ///< Index of that stage.

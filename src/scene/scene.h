@@ -276,6 +276,10 @@ struct Integrator {
     int steps = 64;       ///< Of a march through one segment in one medium, > 0 ...
     double step_size = 0; ///< ... or, if > 0, their length at most, in scene units.
     Placement placement = Placement::uniform;
+    /// Most segments of a path, tentative collisions included. A guard against paths without an
+    /// end, never part of the method: what it ends is counted. Optical depths of 1000 need some
+    /// 1e6.
+    std::uint32_t event_limit = 1u << 22;
 };
 
 struct Scene {

@@ -37,7 +37,7 @@ Outcome Runs::render(std::uint32_t range, std::uint32_t first_sample, std::uint3
             is_stopped = is_stopped || limits_.is_stopped();
             return !is_stopped && Clock::now() < limits_.deadline;
         });
-    for (std::size_t kind = 0; kind < renderer_.health().size(); ++kind)
+    for (std::size_t kind = 0; kind < kHealthNames.size(); ++kind)
         if (renderer_.health()[kind] > 0) health_[kHealthNames[kind]] += renderer_.health()[kind];
     if (is_stopped) return Outcome::stopped;
     return got == end_sample - first_sample ? Outcome::done : Outcome::too_slow;

@@ -151,4 +151,44 @@ info() {
   says no/such/folder
 }
 
+# Light that float32 cannot hold.
+glare() {
+  cat <<'END'
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+WorldBegin
+LightSource "infinite" "rgb L" [3e38 3e38 3e38]
+LightSource "infinite" "rgb L" [3e38 3e38 3e38]
+END
+}
+
+health() {
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 -o a.exr --stats a.json --strict
+  is_silent_about warning
+  glare >glare.pbrt
+  expect 0 render glare.pbrt --quiet --spp 4 --seed 3 -o a.exr --stats b.json
+  says 'warning: 256 contributions dropped that are not finite; first at pixel'
+  says 'tyndall render glare.pbrt --seed 3 --replay'
+  expect 1 render glare.pbrt --quiet --spp 4 -o a.exr --strict
+  says '--strict: 256 nonfinite'
+  for kind in nonfinite negative majorant_exceeded cosine_exceeded bad_direction event_limit weight_exceeded; do
+    grep -q "\"$kind\": 0" a.json || fail "$kind is not 0"
+  done
+  grep -q '"nonfinite": 256' b.json || fail "not 256 in the statistics"
+  oiiotool --info -v a.exr >out
+  says '"nonfinite":256'
+}
+
+replay() {
+  expect 0 render "$scenes/fog-room.pbrt" $small --replay 12,20,3
+  for word in 'camera' 'surface' 'weight 1' 'mishaps: none' 'the same path'; do says "$word"; done
+  leaves_only
+  expect 0 render "$scenes/slab.pbrt" $small --device reference --replay 12,20,3
+  says camera
+  glare >glare.pbrt
+  expect 1 render glare.pbrt --replay 0,0,0 # what float32 cannot hold, the reference can
+  says 'mishaps: nonfinite'
+  says 'DIFFERENT'
+  for path in 24,0,0 0,24,0 0,0,-1 1,2 1,2,3,4 x; do expect 2 render "$scenes/slab.pbrt" $small --replay $path; done
+}
+
 "$case_name"

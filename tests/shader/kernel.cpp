@@ -26,7 +26,8 @@ Kernel::Kernel(const char* name, std::span<const std::uint32_t> spirv, std::uint
       descriptors_(support::gpu_context(),
                    {{&input_, &unused_paths_, &unused_batches_, &output_, &unused_voxels_},
                     &control_,
-                    &queues_},
+                    &queues_,
+                    &queues_}, // the log is not used
                    sizeof(shared::PushConstants)),
       stage_(support::gpu_context(), descriptors_, name, spirv,
              with_fallback(features, descriptors_)) {}

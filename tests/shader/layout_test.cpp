@@ -182,6 +182,13 @@ TEST_F(Layout, EveryFieldOfTheControlBlockArrives) {
         EXPECT_EQ(finished, next++);
     for (std::uint32_t health : control.health)
         EXPECT_EQ(health, next++);
+    for (std::uint32_t pixel : control.health_pixel)
+        EXPECT_EQ(pixel, next++);
+    for (std::uint32_t sample : control.health_sample)
+        EXPECT_EQ(sample, next++);
+    EXPECT_EQ(control.worst_majorant_ratio, next++);
+    EXPECT_EQ(control.lost_throughput_low, next++);
+    EXPECT_EQ(control.lost_throughput_high, next++);
     for (std::uint32_t samples : control.sample_histogram)
         EXPECT_EQ(samples, next++);
 }

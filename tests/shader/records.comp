@@ -112,6 +112,13 @@ void fill_control() {
         control.finished[i] = count++;
     for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)
         control.health[i] = count++;
+    for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)
+        control.health_pixel[i] = count++;
+    for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)
+        control.health_sample[i] = count++;
+    control.worst_majorant_ratio = count++;
+    control.lost_throughput_low = count++;
+    control.lost_throughput_high = count++;
     for (uint i = 0u; i < SAMPLE_BINS; ++i)
         control.sample_histogram[i] = count++;
 }

@@ -1,0 +1,72 @@
+#include "render/replay.h"
+
+#include "render/renderer.h"
+#include "shared/event_records.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tyndall {
+namespace {
+
+using namespace shared;
+
+static_assert(EVENT_KIND_COUNT == static_cast<std::uint32_t>(PathEvent::Kind::lost) + 1);
+
+/// Shapes in the order of their records: those of the world, then those of definitions.
+std::vector<const Shape*> record_shapes(const Scene& scene) {
+    std::vector<const Shape*> shapes;
+    for (const Shape& shape : scene.shapes)
+        shapes.push_back(&shape);
+    for (const ObjectDefinition& object : scene.objects)
+        for (const Shape& shape : object.shapes)
+            shapes.push_back(&shape);
+    return shapes;
+}
+
+/// Media are followed by copies for instances.
+int scene_medium(const Scene& scene, std::uint32_t record) {
+    return record == VACUUM ? -1 : static_cast<int>(record % scene.media.size());
+}
+
+/// Stages of one event log in the order in which they run: light arrives after the path has gone
+/// on, or ended.
+int rank(std::uint32_t kind) {
+    return kind < EVENT_LIGHT ? 0 : kind == EVENT_LIGHT ? 1 : 2;
+}
+
+void sort_events(std::vector<EventRecord>& log) {
+    std::stable_sort(log.begin(), log.end(), [](const EventRecord& a, const EventRecord& b) {
+        return std::tuple(a.event, rank(a.kind_and_medium >> 16)) <
+               std::tuple(b.event, rank(b.kind_and_medium >> 16));
+    });
+}
+
+} // namespace
+
+Replay replay_path(const gpu::Context& context, const Scene& scene, int x, int y,
+                   std::uint32_t sample, std::uint32_t capacity) {
+    Scene pixel = scene;
+    pixel.film.bounds = {x, x + 1, y, y + 1};
+    Renderer renderer(context, pixel, {.slots = 64, .log_capacity = capacity});
+    renderer.render(sample, sample + 1);
+    EventLog log = renderer.wavefront().read_log();
+    sort_events(log.events);
+    const glm::dvec3 camera(scene.camera.world_from_camera[3]);
+    Replay replay{.camera = camera, .event_count = log.count, .sum = renderer.read_sums()[0]};
+    for (std::size_t kind = 0; kind < HEALTH_COUNT; ++kind)
+        replay.mishaps |= (renderer.health()[kind] > 0 ? 1u : 0u) << kind;
+    const std::vector<const Shape*> shapes = record_shapes(scene);
+    for (const EventRecord& record : log.events)
+        replay.events.push_back({.kind = static_cast<PathEvent::Kind>(record.kind_and_medium >> 16),
+                                 .event = record.event,
+                                 .position = camera + glm::dvec3(record.position),
+                                 .direction = record.direction,
+                                 .medium = scene_medium(scene, record.kind_and_medium & 0xFFFFu),
+                                 .throughput = record.throughput,
+                                 .radiance = record.radiance,
+                                 .shape = record.shape == NONE ? nullptr : shapes[record.shape]});
+    return replay;
+}
+
+} // namespace tyndall
