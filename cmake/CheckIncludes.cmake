@@ -2,8 +2,8 @@
 # Fails, naming each place, on an include that the layering forbids:
 #
 #   core <- volume, phase <- scene    core <- image <- stats    core <- gpu
-#   those <- render, reference <- study <- cli
-#   shared <- lib <- wavefront
+#   those <- render, reference <- study, selftest <- cli
+#   shared <- lib <- wavefront <- selftest
 #
 # A folder may include what its line below matches, and system headers. The folders that may include
 # a library's headers stand beside that library.
@@ -20,11 +20,13 @@ set(rules
   "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/health.h shared/interop.h"
   "src/stats     | core/ image/ stats/ shared/sample_histogram.h"
   "src/study     | core/ volume/ phase/ scene/ image/ gpu/ render/ stats/ study/ shared/records.h"
-  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ study/ cli/ shared/schedule.h shared/health.h"
+  "src/selftest  | core/ volume/ scene/ image/ gpu/ render/ selftest/ shared/ spirv/"
+  "src/cli       | core/ volume/ phase/ scene/ image/ gpu/ render/ reference/ stats/ study/ selftest/ cli/ shared/schedule.h shared/health.h"
   "src/main.cpp  | core/ cli/"
   "shaders/shared    | health.h interop.h records.h sample_histogram.h"
   "shaders/lib       | shared/ lib/"
-  "shaders/wavefront | shared/ lib/ wavefront/.*glsl")
+  "shaders/wavefront | shared/ lib/ wavefront/.*glsl"
+  "shaders/selftest  | shared/ lib/ wavefront/scene.glsl")
 
 set(libraries
   "volk.h vulkan/ spirv-tools/ | src/gpu"

@@ -82,7 +82,8 @@ TYNDALL_SHARED_END
     X(29, has_chromatic_phases, 1) /* some phase function differs between channels */              \
     X(30, has_lit_ball, 1)         /* all light comes from a ball, and a medium goes on around */  \
     X(31, event_limit, 4194304)    /* Integrator::event_limit */                                   \
-    X(32, log_capacity, 0)         /* events that a replay keeps; 0: no log */
+    X(32, log_capacity, 0)         /* events that a replay keeps; 0: no log */                     \
+    X(33, loops_test_first, 0)     /* SwiftShader; see wavefront/phases.glsl */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

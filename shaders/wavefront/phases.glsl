@@ -1,5 +1,9 @@
 // The phase function of a medium: one in closed form, a table, or a mixture of such.
 //
+// Loops that look things up test at their head: SwiftShader computes what a loop's body computes
+// for lanes that have left it, too, from lookups that give 0 for them; variables that the head has
+// seen keep their values (tests: PhaseKinds; the slab on voxels of `tyndall selftest`).
+//
 // Where channels have functions of their own, the hero's is sampled. Values are by channel; each is
 // the density with which that channel would have drawn the direction as a hero (lib/medium.glsl on
 // r).
@@ -28,14 +32,14 @@ vec3 evaluate_table(uint table, vec2 complements) {
     const float turn = atan(sqrt(complements.x), sqrt(complements.y)) * (2.0 / PI); // theta / pi
     uint i = min(uint(float(last + 1u) * sqrt(turn)), last);
     vec4 left, right;
-    bool is_before, is_after;
-    do {
+    bool is_before = true, is_after = true;
+    while (is_before || is_after) {
         left = uintBitsToFloat(fetch_scene(nodes + i));
         right = uintBitsToFloat(fetch_scene(nodes + i + 1u));
         is_before = i > 0u && !is_past(left.x, complements);
         is_after = i < last && is_past(right.x, complements);
         i = is_before ? i - 1u : is_after ? i + 1u : i;
-    } while (is_before || is_after);
+    }
     const float along = left.x >= 0.0 ? complements.x - left.x : -left.x - complements.y;
     return mix(left.yzw, right.yzw, along / segment_width(left.x, right.x));
 }
@@ -46,13 +50,13 @@ vec2 sample_table(uint table, uint channel, float xi) {
     const uint node_count = fetch_scene(table).x;
     const float target = 1.0 - xi;         // exact; the CDF runs from forward to backward
     uint low = 0u, high = node_count - 1u; // cdf[low] <= target < cdf[high]
-    do {
+    while (high - low > 1u) {
         const uint middle = (low + high) / 2u;
         const bool is_below =
             uintBitsToFloat(fetch_scene(nodes + node_count + middle)[channel]) <= target;
         low = is_below ? middle : low;
         high = is_below ? high : middle;
-    } while (high - low > 1u);
+    }
     const vec4 left = uintBitsToFloat(fetch_scene(nodes + low));
     const vec4 right = uintBitsToFloat(fetch_scene(nodes + low + 1u));
     const float before = uintBitsToFloat(fetch_scene(nodes + node_count + low)[channel]);
@@ -95,12 +99,13 @@ vec3 evaluate_phase(Medium medium, vec3 from, vec3 to) {
         return evaluate_single_phase(medium.phase, medium.phase_parameter, from, to);
     vec3 sum = vec3(0);
     uint texel = medium.phase & PHASE_TEXEL_MASK;
-    PhaseComponentRecord c;
-    do {
-        c = load_phase_component(texel);
+    float share = 0.0;
+    while (share < 1.0) {
+        const PhaseComponentRecord c = load_phase_component(texel);
         sum += c.weight * evaluate_single_phase(c.phase, c.parameter, from, to);
+        share = c.share;
         ++texel;
-    } while (c.share < 1.0);
+    }
     return sum;
 }
 
@@ -113,16 +118,15 @@ vec3 sample_phase(Medium medium, uint hero, vec3 from, float xi, float azimuth) 
     float parameter = medium.phase_parameter;
     if (is_mixture(medium)) {
         uint texel = phase & PHASE_TEXEL_MASK;
-        PhaseComponentRecord c;
-        bool is_chosen;
-        do {
-            c = load_phase_component(texel);
+        bool is_chosen = false;
+        while (!is_chosen) {
+            const PhaseComponentRecord c = load_phase_component(texel);
             is_chosen = xi < c.share || c.share >= 1.0;
             xi = is_chosen ? min(xi / c.share, 1.0) : (xi - c.share) / (1.0 - c.share);
+            phase = c.phase;
+            parameter = c.parameter;
             ++texel;
-        } while (!is_chosen);
-        phase = c.phase;
-        parameter = c.parameter;
+        }
     }
     if (is_delta_phase(phase >> PHASE_KIND_SHIFT, parameter)) return parameter > 0.0 ? from : -from;
     const vec2 complements = sample_single_phase(phase, parameter, channel, xi);

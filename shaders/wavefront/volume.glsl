@@ -113,13 +113,16 @@ Field begin_field(Medium medium, vec3 origin, vec3 direction, float t_surface, o
 }
 
 /// Goes on from t through the cells of the grid until the optical distance tau of the majorants is
-/// used up. True if it is: then t is where, and `bound` the majorant there.
+/// used up. True if it is: then t is where, and `bound` the majorant there. (On testing first see
+/// phases.glsl; it costs other drivers 4 %.)
 bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) {
     CellWalk walk = begin_cells(f.origin, f.direction, vec3(f.grid.majorant_lower),
                                 float(f.grid.majorant_size), f.grid.majorant_count, t);
     const ivec3 n = f.grid.majorant_count;
-    bool collides, has_left;
+    bool collides = false, has_left = false;
+    bound = 0.0;
     do {
+        if (loops_test_first != 0u && (collides || has_left)) break;
         const ivec3 c = walk.cell;
         bound = f.sigma_max *
                 uintBitsToFloat(table_word(f.grid.majorants, uint(c.x + n.x * (c.y + n.y * c.z))));
@@ -131,7 +134,7 @@ bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) 
         tau -= depth;
         walk.cell[axis] += walk.step[axis];
         has_left = t >= f.t_end || walk.cell[axis] < 0 || walk.cell[axis] >= n[axis];
-    } while (!collides && !has_left);
+    } while (loops_test_first != 0u || (!collides && !has_left));
     return collides;
 }
 

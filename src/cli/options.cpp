@@ -24,10 +24,14 @@ void add_scene_options(CLI::App& app, SceneOptions& o) {
         ->check(CLI::IsMember({"volpath", "path", "singlescatter"}));
 }
 
-void add_device_options(CLI::App& app, DeviceOptions& o) {
+void add_device_choice(CLI::App& app, DeviceOptions& o) {
     app.add_option("--device", o.device,
                    "Device name or index (see `tyndall devices`), or reference");
     app.add_flag("--validate", o.validate, "Run with the Vulkan validation layer");
+}
+
+void add_device_options(CLI::App& app, DeviceOptions& o) {
+    add_device_choice(app, o);
     app.add_option("--slots", o.tuning.slots, "Paths in flight (does not change the image)");
     app.add_option("--run-length", o.tuning.run_length,
                    "Most events per path and dispatch (does not change the image)");
@@ -120,6 +124,17 @@ void add_rest(CLI::App& app, InfoOptions& info, CompareOptions& compare, Devices
     command->callback([&] { status = run_devices(devices); });
 }
 
+void add_selftest(CLI::App& app, SelftestOptions& o, int& status) {
+    CLI::App* command = app.add_subcommand(
+        "selftest", "Test the device: hard arguments, and scenes with known radiance");
+    add_device_choice(*command, o.device);
+    command->add_option(
+        "--corrupt", o.corrupt,
+        "Control: make what the device gives wrong by this fraction; every case must fail");
+    command->add_flag("--json", o.json, "Print the table as JSON");
+    command->callback([&] { status = run_selftest(o); });
+}
+
 /// The arguments as a shell would take them.
 std::string command_line(int argc, char** argv) {
     std::string text;
@@ -144,10 +159,12 @@ int run(int argc, char** argv) {
     InfoOptions info;
     CompareOptions compare;
     DevicesOptions devices;
+    SelftestOptions selftest;
     add_render(app, render, status);
     add_verify(app, verify, status);
     add_study(app, study, status);
     add_rest(app, info, compare, devices, status);
+    add_selftest(app, selftest, status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

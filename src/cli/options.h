@@ -77,6 +77,12 @@ struct DevicesOptions {
     bool json = false;
 };
 
+struct SelftestOptions {
+    DeviceOptions device;
+    double corrupt = 0;
+    bool json = false;
+};
+
 /// Each command's work; returns the exit status. Throws Error.
 int run_render(const RenderOptions& options);
 int run_replay(const RenderOptions& options);
@@ -85,6 +91,7 @@ int run_study(const StudyOptions& options);
 int run_info(const InfoOptions& options);
 int run_compare(const CompareOptions& options);
 int run_devices(const DevicesOptions& options);
+int run_selftest(const SelftestOptions& options);
 
 /// Parses the command line and runs what it asks for.
 int run(int argc, char** argv);

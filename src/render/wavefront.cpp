@@ -75,6 +75,7 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     features_.workgroup_size = tuning_.workgroup_size;
     features_.log_capacity = tuning_.log_capacity;
     features_.storage_fallback = descriptors_->storage_fallback();
+    features_.loops_test_first = context.info().driver.starts_with("SwiftShader");
     features_.primitives = tables.primitives;
     features_.emitters = tables.emitters;
     features_.voxels_are_half = tables.voxels.is_half;

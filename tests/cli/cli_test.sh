@@ -124,6 +124,14 @@ verify() {
   expect 1 verify "$scenes/slab.pbrt" $small --spp 512 --corrupt 0.01 # control
 }
 
+selftest() {
+  expect 0 selftest --json
+  grep -q '"passed": true' out || fail "no verdict"
+  expect 1 selftest --corrupt 0.05 # control: every case must fail
+  says 'FAILED'
+  grep -q '^0 of [0-9]* passed' out || fail "some cases pass whatever the device gives"
+}
+
 compare() {
   expect 0 render "$scenes/chromatic.pbrt" $small --spp 64 --seed 1 -o a.exr
   expect 0 render "$scenes/chromatic.pbrt" $small --spp 64 --seed 2 -o b.exr

@@ -1,8 +1,8 @@
-#include "support/scenes.h"
+#include "scene/by_hand.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace tyndall::support {
+namespace tyndall::by_hand {
 
 Scene empty_scene(int pixels_across, double half) {
     Scene scene;
@@ -115,4 +115,4 @@ glm::dmat4 scaling(const glm::dvec3& factors) {
     return glm::scale(glm::dmat4(1), factors);
 }
 
-} // namespace tyndall::support
+} // namespace tyndall::by_hand

@@ -1,0 +1,98 @@
+// Hard cases that are no row of the table: rays that must not leak, one voxel far above the rest,
+// sample indices next to their end.
+#include "device/device_test.h"
+#include "device/test_scenes.h"
+#include "selftest/evaluator.h"
+#include "support/volumes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::stability {
+namespace {
+
+using namespace support;
+using device_test::DeviceTest;
+using device_test::mean_of;
+using device_test::render;
+
+/// The camera in the tube of a black torus, which the sky must not find a way into.
+Scene dark_tube() {
+    Scene scene = empty_scene(64);
+    scene.camera.kind = Camera::Kind::perspective;
+    scene.camera.fov = 140;
+    scene.camera.screen_window_given = false;
+    scene.camera.world_from_camera = look_at({1, 0.02, 0.01}, {1, 1, 0}, {0, 0, 1});
+    add_infinite(scene);
+    add_shape(scene, device_test::torus_mesh(24, 12), {.material = black});
+    return scene;
+}
+
+class Leaks : public DeviceTest {};
+
+TEST_F(Leaks, TenMillionRaysStayInAClosedMesh) {
+    EXPECT_EQ(mean_of(render(dark_tube(), 10'000'000 / (64 * 64))).mean, Rgb(0));
+    Scene open = dark_tube(); // the control
+    std::get<Mesh>(open.shapes[0].geometry).triangles.pop_back();
+    EXPECT_GT(mean_of(render(open, 16)).mean.g, 0);
+}
+
+/// Ten million collisions do not carry a path out of a closed mesh either: what it holds conserves
+/// light, so that a leak would show as light from the sky.
+TEST_F(Leaks, CollisionsStayInAClosedMesh) {
+    Scene scene = dark_tube();
+    const int fog = add_medium(scene, Rgb(0.02), Rgb(20));
+    scene.camera.medium = fog;
+    scene.shapes[0].media = {fog, -1};
+    EXPECT_EQ(mean_of(render(scene, 16)).mean, Rgb(0));
+    scene.shapes[0].material = interface; // the control
+    EXPECT_GT(mean_of(render(scene, 1)).mean.g, 0);
+}
+
+class Voxels : public DeviceTest {};
+
+/// One voxel of a million among ones: the device and the reference, with the same random numbers.
+TEST_F(Voxels, OneHotVoxelAgreesWithTheReference) {
+    Scene scene = empty_scene(4);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    const int cloud = add_medium(scene, Rgb(0.2), Rgb(0.4), 0.3);
+    scene.media[0].density = Lattice{{-1, -1, -1}, {1, 1, 1}, {9, 9, 9}}.density(
+        [](const glm::ivec3& v) { return v == glm::ivec3(4, 4, 4) ? 1e6 : 1.0; });
+    add_shape(scene, full_sphere(3), {.inside = cloud});
+    device_test::expect_agreement(scene, 32, 0.06);
+}
+
+class Samples : public DeviceTest {};
+
+/// The last samples that there are.
+TEST_F(Samples, LargeIndicesAreRendered) {
+    Scene scene = empty_scene(4);
+    add_infinite(scene, Rgb(0.75));
+    constexpr std::uint32_t last = 0x7FFFFFFF, count = 1000;
+    const auto sums = device_test::render_sums(scene, last - count, last);
+    for (const glm::dvec4& sum : sums)
+        EXPECT_EQ(sum, glm::dvec4(glm::dvec3(0.75 * count), count));
+    EXPECT_NE(device_test::render_sums(scene, last - count - 1, last)[0], sums[0]) << "no teeth";
+}
+
+class Flights : public DeviceTest {};
+
+/// At an optical depth of 1e-8 the probability of a collision is 1e-8: 43 of the 2^32 words, those
+/// next to the upper end, give shorter flights. As -log(1 - u) of 24 bits it would be 0 or 256.
+TEST_F(Flights, CollideInNextToNothing) {
+    selftest::Evaluator evaluator(device_test::context());
+    std::vector<glm::vec4> words;
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        words.emplace_back(0xFFFF, 0xFFFF - i, 0, 0);
+    const auto flights = evaluator.evaluate(shared::FUNCTION_EXPONENTIAL, words);
+    const auto shorter = [&](float depth) {
+        return std::count_if(flights.begin(), flights.end(),
+                             [&](const glm::vec4& f) { return f.x < depth; });
+    };
+    EXPECT_NEAR(static_cast<double>(shorter(1e-8F)), 1e-8 * 0x1p32, 1);
+    EXPECT_NEAR(static_cast<double>(shorter(5e-7F)), 5e-7 * 0x1p32, 1);
+}
+
+} // namespace
+} // namespace tyndall::stability

@@ -1,0 +1,141 @@
+// The longer tier (label "long"): scenes of eight kinds over 1e8 paths each, of which none may go
+// wrong; the rows of the table a hundred times deeper; 2^26 samples of one pixel; 1e9 rays in a
+// closed mesh.
+#include "device/device_test.h"
+#include "device/test_scenes.h"
+#include "stability/rows.h"
+#include "support/materials.h"
+#include "support/volumes.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace tyndall::stability {
+namespace {
+
+using namespace support;
+using device_test::context;
+using device_test::DeviceTest;
+using selftest::Lit;
+using selftest::slab_scene;
+
+struct Kind {
+    const char* name;
+    Scene scene;
+};
+
+/// A ball of fog with another, denser one inside, and a third in that.
+Scene nested_media() {
+    Scene scene = empty_scene(16, 1);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    int outside = -1;
+    for (const double radius : {1.0, 0.7, 0.4}) {
+        const int inside = add_medium(scene, Rgb(0.1), Rgb(1 / radius), radius - 0.3);
+        add_shape(scene, full_sphere(radius), {.inside = inside, .outside = outside});
+        outside = inside;
+    }
+    return scene;
+}
+
+Scene chromatic() {
+    Scene scene = slab_scene({0.9, 1, 0.3}, Lit::both_sides);
+    scene.media[0].sigma_a *= Rgb(0.1, 1, 10);
+    scene.media[0].sigma_s *= Rgb(0.1, 1, 10);
+    return scene;
+}
+
+Scene emissive_grid() {
+    Scene scene = empty_scene(16, 1.2);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    const int flame = add_medium(scene, Rgb(0.5), Rgb(1));
+    scene.media[0].emission = {3, 2, 1};
+    scene.media[0].density = Lattice{{-1, -1, -1}, {1, 1, 1}, {9, 9, 9}}.density(
+        [](const glm::ivec3& v) { return (v.x + 2 * v.y + 3 * v.z) % 5; });
+    add_shape(scene, full_sphere(2), {.inside = flame});
+    return scene;
+}
+
+Scene inside_a_cloud() {
+    Scene scene = empty_scene(16, 0.5);
+    add_infinite(scene);
+    scene.camera.medium = add_medium(scene, Rgb(0.01), Rgb(5), 0.85);
+    add_shape(scene, full_sphere(1), {.inside = scene.camera.medium});
+    return scene;
+}
+
+/// The light within the fog, so that its 1 / r^2 is met at any distance.
+Scene point_light_in_fog() {
+    Scene scene = empty_scene(16, 1);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_light(scene, PointLight{Rgb(1), {0.1, 0.2, 0.3}});
+    add_shape(scene, full_sphere(1), {.inside = add_medium(scene, Rgb(0.1), Rgb(3), 0.5)});
+    return scene;
+}
+
+Scene scaled_world() {
+    return device_test::scaled(nested_media(), 1e6);
+}
+
+std::vector<Kind> kinds() {
+    return {{"dense forward scattering", slab_scene({0.99, 64, 0.99}, Lit::both_sides)},
+            {"nested media", nested_media()},
+            {"chromatic", chromatic()},
+            {"emissive grid", emissive_grid()},
+            {"inside a cloud", inside_a_cloud()},
+            {"point light in fog", point_light_in_fog()},
+            {"glass with milk", slab_scene({0.9, 2, 0.75, 1.5}, Lit::near_side)},
+            {"a world scaled by 1e6", scaled_world()}};
+}
+
+class LongStability : public DeviceTest {};
+
+TEST_F(LongStability, NoneOf1e8PathsOfEightKindsGoesWrong) {
+    for (const Kind& kind : kinds()) {
+        Renderer renderer(context(), kind.scene);
+        const std::uint32_t samples = 100'000'000 / (16 * 16) + 1;
+        EXPECT_EQ(renderer.render(0, samples), samples);
+        std::printf("%s: %.3g paths", kind.name, 256.0 * samples);
+        for (std::size_t i = 0; i < kHealthNames.size(); ++i) {
+            std::printf(", %s %llu", kHealthNames[i],
+                        static_cast<unsigned long long>(renderer.health()[i]));
+            EXPECT_EQ(renderer.health()[i], 0) << kind.name << ": " << kHealthNames[i];
+        }
+        std::printf("\n");
+        std::fflush(stdout);
+    }
+}
+
+TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
+    for (const selftest::Case& c : rows()) {
+        const Estimate mean = device_test::mean_of(c.scene, 100 * std::min(c.samples, 4096u));
+        for (int k = 0; k < 3; ++k)
+            EXPECT_LE(std::abs(mean.mean[k] - c.expected[k]),
+                      support::pass * mean.standard_error[k] + c.rounding * c.expected[k])
+                << c.name << ", channel " << k << ": " << mean.mean[k] << " +- "
+                << mean.standard_error[k];
+    }
+}
+
+/// An average of 2^26 samples into one pixel converges on, where plain sums in float32 have come to
+/// stand long before.
+TEST_F(LongStability, OnePixelTakes2To26Samples) {
+    Scene scene = empty_scene(1);
+    add_infinite(scene, Rgb(0.1));
+    const Estimate mean = device_test::mean_of(scene, 1u << 26);
+    EXPECT_NEAR(mean.mean.g, 0.1, 1e-7);
+}
+
+TEST_F(LongStability, ABillionRaysStayInAClosedMesh) {
+    Scene scene = empty_scene(256);
+    scene.camera.kind = Camera::Kind::perspective;
+    scene.camera.fov = 140;
+    scene.camera.screen_window_given = false;
+    scene.camera.world_from_camera = look_at({1, 0.02, 0.01}, {1, 1, 0}, {0, 0, 1});
+    add_infinite(scene);
+    add_shape(scene, device_test::torus_mesh(24, 12), {.material = black});
+    EXPECT_EQ(device_test::mean_of(scene, 1'000'000'000 / (256 * 256)).mean, Rgb(0));
+}
+
+} // namespace
+} // namespace tyndall::stability

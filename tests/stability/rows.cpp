@@ -1,0 +1,211 @@
+#include "stability/rows.h"
+
+#include "support/scenes.h"
+#include "support/volumes.h"
+
+#include <cctype>
+#include <cmath>
+
+namespace tyndall::stability {
+namespace {
+
+using namespace support;
+using selftest::Case;
+using selftest::in_units;
+using selftest::Lit;
+using selftest::Slab;
+using selftest::slab_scene;
+
+constexpr double kDepth2 = 0.1353352832366127; ///< exp(-2)
+
+/// A box 1 deep, of a medium with these coefficients, before a sky of radiance 1.
+Scene box(const Rgb& sigma_a, const Rgb& sigma_s, double g = 0) {
+    Scene scene = slab_scene({0, 0, g}, Lit::both_sides);
+    scene.media[0].sigma_a = sigma_a;
+    scene.media[0].sigma_s = sigma_s;
+    return scene;
+}
+
+/// So dense that no flight moves a path: it leaves where it came in, as soon as its direction lets
+/// it. Away from z = 0, next to which such flights would be numbers, and a walk without end.
+Scene wall_of_scatterers() {
+    Scene scene = box(Rgb(0), Rgb(1e30));
+    scene.shapes[0].world_from_object = translation({0, 0, 1});
+    return scene;
+}
+
+Scene glowing(double depth) {
+    Scene scene = box(Rgb(depth), Rgb(0));
+    scene.lights.clear();
+    scene.media[0].emission = Rgb(1);
+    return scene;
+}
+
+/// Turns the camera, so that it looks at the slab at the cosine mu; the azimuth is 0.
+Scene seen_at(Scene scene, double mu) {
+    const glm::dvec3 along(std::sqrt(1 - mu * mu), 0, mu);
+    scene.camera.world_from_camera = look_at(-4.0 * along, {0, 0, 0}, {0, 1, 0});
+    return scene;
+}
+
+/// Radiance that a slab sends back towards the cosine mu, under parallel light of irradiance pi
+/// (perpendicular to it) from the cosine mu0 on the same side.
+Scene sunlit(const Slab& slab, double mu0, double mu) {
+    Scene scene = seen_at(slab_scene(slab, Lit::both_sides), mu);
+    scene.lights.clear();
+    const double sine = std::sqrt(1 - mu0 * mu0);
+    add_light(scene, DistantLight{Rgb(3.141592653589793), {0, sine, mu0}});
+    return scene;
+}
+
+/// The slab on voxels whose planes and cells the rays of pixel centres run in.
+Scene in_voxel_planes(const VoxelFunction& density, double sigma_t, const glm::ivec3& count) {
+    Scene scene = empty_scene(8, 4);
+    trace_pixel_centers(scene); // at odd halves
+    scene.camera.world_from_camera = translation({0, 0, -9});
+    add_infinite(scene);
+    const int medium = add_medium(scene, Rgb(sigma_t), Rgb(0));
+    const glm::dvec3 half = 0.5 * glm::dvec3(count - 1);
+    const glm::dvec3 middle(0.5, 0.5, 0.5);
+    scene.media[0].density = Lattice{middle - half, middle + half, count}.density(density, 1);
+    add_shape(scene, full_sphere(100), {.inside = medium});
+    scene.camera.medium = medium;
+    return scene;
+}
+
+double one(const glm::ivec3&) {
+    return 1;
+}
+double zero(const glm::ivec3&) {
+    return 0;
+}
+
+/// Two absorbing boxes that share a face, each with a boundary of its own there.
+Scene touching_boxes() {
+    Scene scene = empty_scene(8, 1);
+    scene.camera.world_from_camera = translation({0.123, 0.077, -4});
+    add_infinite(scene);
+    const int first = add_medium(scene, Rgb(0.5), Rgb(0));
+    const int second = add_medium(scene, Rgb(1.5), Rgb(0));
+    add_shape(scene, box_mesh({-4, -4, 0}, {4, 4, 1}), {.inside = first});
+    add_shape(scene, box_mesh({-4, -4, 1}, {4, 4, 2}), {.inside = second});
+    return scene;
+}
+
+/// The camera stands in the boundary of an absorbing box, in its medium.
+Scene camera_on_a_boundary() {
+    Scene scene = box(Rgb(2), Rgb(0));
+    scene.camera.world_from_camera = glm::dmat4(1);
+    scene.camera.medium = 0;
+    return scene;
+}
+
+/// `count` boundaries between equal halves of an absorber of depth 2.
+Scene many_boundaries(int count) {
+    Scene scene = empty_scene(4, 1);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    const int even = add_medium(scene, Rgb(2), Rgb(0)), odd = add_medium(scene, Rgb(2), Rgb(0));
+    for (int i = 0; i <= count; ++i) {
+        const int before = i == 0 ? -1 : i % 2 ? even : odd;
+        const int behind = i == count ? -1 : i % 2 ? odd : even;
+        add_shape(scene, square_mesh(4, static_cast<float>(i) / static_cast<float>(count), 1),
+                  {.inside = before, .outside = behind});
+    }
+    return scene;
+}
+
+/// A box with triangles of no area, and slivers, in its faces.
+Scene degenerate_box() {
+    Scene scene = box(Rgb(2), Rgb(0));
+    auto& mesh = std::get<Mesh>(scene.shapes[0].geometry);
+    mesh.triangles.push_back({0, 0, 1});
+    mesh.triangles.push_back({2, 2, 2});
+    mesh.positions.emplace_back(0, 0, 0); // on the near face, seen edge on
+    mesh.positions.emplace_back(0, 0, 1e-30F);
+    mesh.positions.emplace_back(1e-20F, 0, 0);
+    mesh.triangles.push_back({8, 9, 10});
+    return scene;
+}
+
+Scene chromatic(const Rgb& depths, double albedo) {
+    return box((1 - albedo) * depths, albedo * depths);
+}
+
+std::vector<Case> absorption() {
+    return {
+        {"sigma 0", box(Rgb(0), Rgb(0)), 16, Rgb(1)},
+        {"sigma denormal", box(Rgb(1e-45), Rgb(1e-40)), 16, Rgb(1)},
+        {"sigma 1e-30", box(Rgb(1e-30), Rgb(1e-30)), 16, Rgb(1)},
+        {"absorption 1e30", box(Rgb(1e30), Rgb(0)), 16, Rgb(0)},
+        {"scattering 1e30", wall_of_scatterers(), 16, Rgb(1)},
+        {"absorption depth 80", box(Rgb(80), Rgb(0)), 16, Rgb(1.8048513878454153e-35), 4e-5},
+        {"glow of depth 1e-8", glowing(1e-8), 16, Rgb(1e-8)},
+        {"glow of depth 1e6", glowing(1e6), 16, Rgb(1)},
+        {"units of 1e-9", in_units(box(Rgb(2), Rgb(0)), 1e9), 16, Rgb(kDepth2)},
+        {"units of 1e6", in_units(box(Rgb(2), Rgb(0)), 1e-6), 16, Rgb(kDepth2)},
+        {"grazing", seen_at(box(Rgb(2e-3), Rgb(0)), 1e-3), 16, Rgb(kDepth2), 1e-4},
+        {"touching boxes", touching_boxes(), 16, Rgb(kDepth2)},
+        {"camera on a boundary", camera_on_a_boundary(), 16, Rgb(kDepth2)},
+        // A rounding of each segment's exponential: 2^-24 times their number, if they all agree.
+        {"1000 boundaries", many_boundaries(1000), 4, Rgb(kDepth2), 1000 * 0x1p-24},
+        {"degenerate triangles", degenerate_box(), 16, Rgb(kDepth2)},
+    };
+}
+
+std::vector<Case> grids() {
+    const glm::ivec3 cube{9, 9, 9};
+    return {
+        {"grid of zeros", in_voxel_planes(zero, 1e6, cube), 1, Rgb(1)},
+        // 8 deep; tracked by null collisions, which leave all light or none.
+        {"rays in planes of voxels", in_voxel_planes(one, 0.1, cube), 4096, Rgb(std::exp(-0.8))},
+    };
+}
+
+/// Tables: adding and doubling to all digits (Slab), DISORT's problems converged (sunlit),
+/// Chandrasekhar's H (half space under a uniform sky).
+std::vector<Case> tables() {
+    return {
+        {"albedo 0.2", slab_scene({0.2, 10, 0}, Lit::both_sides), 2048, Rgb(0.0352305 + 0.0000115)},
+        {"conservative, depth 64", slab_scene({1, 64, 0}, Lit::near_side), 16, Rgb(0.9743381)},
+        {"conservative, depth 1000", slab_scene({1, 1000, 0}, Lit::both_sides), 2, Rgb(1)},
+        {"albedo 1 - 2^-24", slab_scene({1 - 0x1p-24, 100, 0}, Lit::both_sides), 8, Rgb(1), 2e-5},
+        {"g 0.99, depth 10", slab_scene({0.99, 10, 0.99}, Lit::both_sides), 512,
+         Rgb(0.0187319 + 0.8768297)},
+        {"g -0.5, depth 2", slab_scene({0.9, 2, -0.5}, Lit::both_sides), 512,
+         Rgb(0.4627721 + 0.2760717)},
+        {"extinction 100 to 1",
+         chromatic({0.1, 1, 10}, 0.9),
+         2048,
+         {0.0421014 + 0.9467464, 0.8590354, 0.4205471}},
+        {"half space at mu 0.5", seen_at(slab_scene({0.8, 60, 0}, Lit::both_sides), 0.5), 1024,
+         Rgb(1 - 1.413262569 * std::sqrt(0.2))},
+        {"X2 at mu 0.5", sunlit({1, 1, 0}, 1, 0.5), 1024, Rgb(0.3805144)},
+        {"X2 reversed", sunlit({1, 1, 0}, 0.5, 1), 1024, Rgb(0.5 * 0.3805144)},
+        {"X4 at mu 0.5", sunlit({0.9, 2, 0.75}, 1, 0.5), 2048, Rgb(0.1195622)},
+        {"X4 reversed", sunlit({0.9, 2, 0.75}, 0.5, 1), 2048, Rgb(0.5 * 0.1195622)},
+    };
+}
+
+/// Of a test: letters, digits and underscores.
+std::string plain(std::string name) {
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    return name;
+}
+
+} // namespace
+
+const std::vector<Case>& rows() {
+    static const std::vector<Case> all = [] {
+        std::vector<Case> list = selftest::cases();
+        for (const auto& more : {absorption(), grids(), tables()})
+            list.insert(list.end(), more.begin(), more.end());
+        for (Case& c : list)
+            c.name = plain(c.name);
+        return list;
+    }();
+    return all;
+}
+
+} // namespace tyndall::stability
