@@ -48,7 +48,7 @@ double seconds_of(const TechniqueResult& t, double samples) {
     const std::vector<Level>& levels = t.levels;
     if (samples <= levels.front().samples) return levels.front().seconds;
     if (samples >= levels.back().samples)
-        return levels.back().seconds + (samples - levels.back().samples) * t.seconds_per_sample();
+        return levels.back().seconds + (samples - levels.back().samples) * t.seconds_per_sample;
     std::size_t i = 1;
     while (levels[i].samples < samples)
         ++i;

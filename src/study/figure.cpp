@@ -26,15 +26,16 @@ struct Range {
     }
 };
 
-/// Marks at powers of ten, or at 1, 2 and 5 times those where the axis is short.
+/// Marks at powers of ten, with as many between them as the axis is short.
 std::string marks(const Range& range, const char* unit) {
-    const bool is_short = range.high / range.low < 60;
+    static const std::vector<double> few{1}, some{1, 2, 5}, many{1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+    const double span = range.high / range.low;
     std::string text;
     for (int power = static_cast<int>(std::floor(std::log10(range.low)));
          power <= static_cast<int>(std::ceil(std::log10(range.high))); ++power)
-        for (const int digit : {1, 2, 5}) {
+        for (const double digit : span > 60 ? few : span > 6 ? some : many) {
             const double at = digit * std::pow(10.0, power);
-            if ((digit > 1 && !is_short) || at < range.low || at > range.high) continue;
+            if (at < range.low || at > range.high) continue;
             text += fmt::format("{}\"{:.6g}{}\" {:.10g}", text.empty() ? "" : ", ", at, unit, at);
         }
     return text;

@@ -108,7 +108,9 @@ void add_techniques(Page& page, const Results& results) {
     }
     if (of_family(results, Family::estimators).size() > 1) {
         page.heading("estimators", "What the parts of volpath are worth");
-        page.paragraph(family_sentence(results, Family::estimators));
+        page.paragraph("Each line changes one thing in volpath. Factors are over those of volpath: "
+                       "what is above 1 is worse.");
+        page.add(factors_table(results, Family::estimators, "Variants of volpath"));
         page.plot(time_figure(of_family(results, Family::estimators), "estimators",
                               "Variants of volpath: error against time"));
     }
@@ -119,7 +121,8 @@ void add_techniques(Page& page, const Results& results) {
     }
     if (!of_family(results, Family::phases).empty()) {
         page.heading("phases", "Simpler phase functions");
-        page.paragraph(family_sentence(results, Family::phases));
+        page.paragraph("The phase function of the scene, replaced by one of the same mean cosine.");
+        page.add(factors_table(results, Family::phases, "Other phase functions"));
     }
 }
 

@@ -76,13 +76,31 @@ std::string bias_table(const Results& results, std::string caption, std::string 
     return table.html();
 }
 
+std::string factors_table(const Results& results, Family family, std::string caption) {
+    const TechniqueResult* baseline = results.find(kBaseline);
+    if (!baseline || !baseline->is_measured()) return "";
+    Table table(std::move(caption), {"Technique", "Time of a sample", "Samples for the same noise",
+                                     "Time for the same noise", "Bias"});
+    const auto noise = [](const TechniqueResult& t) { // of one sample, squared
+        return t.last().noise.value * t.last().samples;
+    };
+    for (const TechniqueResult* t : of_family(results, family)) {
+        if (t == baseline) continue;
+        const double cost = relative_cost(results, *t), samples = noise(*t) / noise(*baseline);
+        table.add({t->title, fmt::format("x {:.2f}", cost), fmt::format("x {:.2f}", samples),
+                   fmt::format("x {:.2f}", cost * samples),
+                   t->is_unbiased ? "unbiased" : told(t->last().bias)});
+    }
+    return table.html();
+}
+
 std::string effects_table(const Results& results) {
     Table table("Cost of each effect",
                 {"Left out", "A sample then takes", "Share of the time that it costs", "",
                  "The picture changes by"});
     for (const TechniqueResult* t : of_family(results, Family::without)) {
         const double share = 1 - relative_cost(results, *t);
-        table.add({t->title, duration(t->seconds_per_sample()),
+        table.add({t->title, duration(t->seconds_per_sample),
                    share > 0.005 ? percent(share) : "none", bar(share), told(t->last().bias)});
     }
     return table.html();
@@ -107,8 +125,8 @@ std::string techniques_table(const Results& results) {
         std::vector<std::string> cells{
             name,
             std::to_string(t.last().samples),
-            duration(t.seconds_per_sample()),
-            t.seconds_per_render() > 0 ? duration(t.seconds_per_render()) : "",
+            duration(t.seconds_per_sample),
+            t.seconds_per_render > 0 ? duration(t.seconds_per_render) : "",
             percent(std::sqrt(std::max(0.0, t.last().noise.value) * t.last().samples)),
             told(fit_noise(t)),
             told(fit_error(t)),

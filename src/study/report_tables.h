@@ -12,6 +12,8 @@ std::string agreement_table(const Agreement& agreement);
 /// Bias by parameter, a column for each series: {series, what its column is called}.
 std::string bias_table(const Results& results, std::string caption, std::string parameter,
                        const std::vector<std::pair<std::string, std::string>>& series);
+/// Techniques of a family against the baseline, as factors.
+std::string factors_table(const Results& results, Family family, std::string caption);
 std::string effects_table(const Results& results);
 std::string techniques_table(const Results& results);
 std::string provenance_table(const Results& results);

@@ -17,8 +17,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Level, samples, seconds, clock_seconds, error
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EqualTime, samples, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TechniqueResult, name, title, family, series, parameter,
                                    is_unbiased, problem, build_seconds, compile_seconds,
-                                   first_seconds, spent_seconds, levels, brightness, equal_time,
-                                   health)
+                                   first_seconds, spent_seconds, seconds_per_render,
+                                   seconds_per_sample, levels, brightness, equal_time, health)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceResult, file, samples, seconds, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Results, version, scene, sha256, device, driver, command, date,
                                    seed, width, height, part, scene_width, scene_height, max_depth,
@@ -54,43 +54,7 @@ std::string csv(const Results& results) {
     return text;
 }
 
-/// What a slice takes: in any case, and more for each of its samples.
-struct Cost {
-    double fixed = 0, per_sample = 0;
-};
-
-/// A line through the slices and the longer render of EqualTime, each by its relative deviation.
-Cost fit_cost(const TechniqueResult& technique) {
-    double w = 0, wn = 0, wt = 0, wnn = 0, wnt = 0;
-    const auto add = [&](double n, double t) {
-        const double weight = 1 / (t * t);
-        w += weight, wn += weight * n, wt += weight * t, wnn += weight * n * n;
-        wnt += weight * n * t;
-    };
-    double before = 0;
-    for (const Level& level : technique.levels) {
-        add(level.slice_samples, level.seconds - before);
-        before = level.seconds;
-    }
-    if (technique.equal_time.samples > 0)
-        add(technique.equal_time.samples, technique.equal_time.seconds);
-    const double determinant = w * wnn - wn * wn;
-    const Cost through_zero{0, wnn > 0 ? wnt / wnn : 0};
-    if (technique.levels.size() < 2 || !(determinant > 0)) return through_zero;
-    const double per_sample = (w * wnt - wn * wt) / determinant;
-    const double fixed = (wt - per_sample * wn) / w;
-    return per_sample > 0 && fixed > 0 ? Cost{fixed, per_sample} : through_zero;
-}
-
 } // namespace
-
-double TechniqueResult::seconds_per_sample() const {
-    return fit_cost(*this).per_sample;
-}
-
-double TechniqueResult::seconds_per_render() const {
-    return fit_cost(*this).fixed;
-}
 
 const TechniqueResult* Results::find(const std::string& name) const {
     const auto found =

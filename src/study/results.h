@@ -17,9 +17,9 @@ namespace tyndall::study {
 /// A technique after so many samples of each pixel, seen in kRuns independent runs.
 struct Level {
     std::uint32_t samples = 0;
-    /// Of a run, without loading and compiling. On a CPU device: processor time over the number of
-    /// processors, which is what the clock shows where nothing else runs, and hardly depends on
-    /// what does run. Else: by the clock.
+    /// Of a render of so many samples, without loading and compiling. On a CPU device: processor
+    /// time over the number of processors, which is what the clock shows where nothing else runs,
+    /// and hardly depends on what does run. Else: by the clock.
     double seconds = 0;
     double clock_seconds = 0;    ///< Of a run, by the clock.
     Estimate error, noise, bias; ///< Squared and relative, see ErrorSplit.
@@ -42,6 +42,9 @@ struct TechniqueResult {
     double build_seconds = 0, compile_seconds = 0;
     double first_seconds = 0; ///< One sample, with what drivers compile late.
     double spent_seconds = 0; ///< All of it.
+    /// Of Level::seconds: what a render takes in any case, since its last paths have the device for
+    /// themselves, and what each sample of each pixel adds.
+    double seconds_per_render = 0, seconds_per_sample = 0;
     std::vector<Level> levels;
     Estimate brightness; ///< brightness_error at the last level.
     EqualTime equal_time;
@@ -49,10 +52,6 @@ struct TechniqueResult {
 
     bool is_measured() const { return !levels.empty(); }
     const Level& last() const { return levels.back(); }
-    /// Seconds that one sample more of each pixel takes, without what a render takes in any case.
-    double seconds_per_sample() const;
-    /// Seconds that a render takes in any case: its last paths have the device for themselves.
-    double seconds_per_render() const;
 };
 
 struct ReferenceResult {

@@ -1,6 +1,7 @@
 #include "study/runner.h"
 
 #include "core/error.h"
+#include "study/cost.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,10 +21,10 @@ Level measure_level(const Runs& runs, const Reference& reference, std::uint32_t 
             .slice_noise = measure_noise(runs.slice(), reference.power())};
 }
 
-std::string too_slow(double sample_seconds, double seconds) {
-    return fmt::format("one sample of each pixel takes {:.2g} s, so that {} independent ones do "
-                       "not fit into its share of {:.2g} s",
-                       sample_seconds, kRuns, seconds);
+std::string too_slow(const TechniqueResult& r, const Share& share) {
+    return fmt::format("preparing took {:.2g} s and a first sample of each pixel {:.2g} s; {} of "
+                       "them do not fit into its share of {:.2g} s",
+                       r.build_seconds + r.compile_seconds, r.first_seconds, kRuns, share.seconds);
 }
 
 /// Doubles the samples as long as there is time; begins in any case, unless it gives up where not
@@ -47,8 +48,9 @@ Outcome measure_levels(Runs& runs, const Reference& reference, double seconds, b
 }
 
 /// How many samples take so long, one at least.
-std::uint32_t samples_in(double seconds, const TechniqueResult& r) {
-    const double fit = (seconds - r.seconds_per_render()) / std::max(r.seconds_per_sample(), 1e-9);
+std::uint32_t samples_in(double seconds, TechniqueResult r) {
+    price(r);
+    const double fit = (seconds - r.seconds_per_render) / std::max(r.seconds_per_sample, 1e-9);
     return static_cast<std::uint32_t>(std::clamp(fit, 1.0, double(range::length)));
 }
 
@@ -80,7 +82,9 @@ Measurement Runner::measure(const Technique& technique, const Reference& referen
     Measurement m{.result = describe(technique)};
     TechniqueResult& r = m.result;
     if (kRuns * share.expected > share.seconds) {
-        r.problem = too_slow(share.expected, share.seconds);
+        r.problem = fmt::format("a sample of each pixel would take about {:.2g} s; {} of them do "
+                                "not fit into its share of {:.2g} s",
+                                share.expected, kRuns, share.seconds);
         return m;
     }
     const Scene scene = changed_scene(scene_, technique);
@@ -100,8 +104,9 @@ Measurement Runner::measure(const Technique& technique, const Reference& referen
         m.mean = average(pictures);
         r.brightness = brightness_error(pictures, reference);
         if (!m.is_interrupted) render_equal_time(runs, share.equal_time, limits_, m);
+        price(r);
     } else if (!m.is_interrupted) {
-        r.problem = too_slow(r.first_seconds, share.seconds);
+        r.problem = too_slow(r, share);
     }
     r.health = runs.health();
     r.spent_seconds = seconds_since(start);

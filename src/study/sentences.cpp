@@ -164,6 +164,7 @@ std::string orders_sentence(const Results& results) {
     const auto untold = std::find_if(list.begin(), list.end(), [](const TechniqueResult* t) {
         return !bounds(t->last().bias).is_told();
     });
+    if (list.size() == 1) return text;
     return text + (untold == list.end()
                        ? fmt::format(" With {:g}, {} is still missing.", list.back()->parameter,
                                      told(list.back()->last().bias))
@@ -174,7 +175,7 @@ std::string orders_sentence(const Results& results) {
 double relative_cost(const Results& results, const TechniqueResult& technique) {
     const TechniqueResult* baseline = results.find(kBaseline);
     if (!baseline || !baseline->is_measured()) return 1;
-    return technique.seconds_per_sample() / baseline->seconds_per_sample();
+    return technique.seconds_per_sample / baseline->seconds_per_sample;
 }
 
 std::string cells_sentence(const Results& results) {
@@ -187,24 +188,6 @@ std::string cells_sentence(const Results& results) {
         "when a scene is read; with the other sizes a sample costs from {:.2f} to "
         "{:.2f} times as much. The picture is the same.",
         least, most);
-}
-
-std::string family_sentence(const Results& results, Family family) {
-    const TechniqueResult* baseline = results.find(kBaseline);
-    std::string text;
-    for (const TechniqueResult* t : of_family(results, family)) {
-        if (!baseline || !baseline->is_measured() || t == baseline) continue;
-        // The same noise, by samples and what they cost.
-        const double noise = t->last().noise.value * t->last().samples /
-                             (baseline->last().noise.value * baseline->last().samples);
-        const double cost = relative_cost(results, *t);
-        text += fmt::format("{} takes {:.2f} times as long for a sample and {:.2f} times as many "
-                            "samples for the same noise, {:.2f} times the time in all",
-                            strong(t->title), cost, noise, cost * noise);
-        if (!t->is_unbiased) text += fmt::format("; its bias is {}", told(t->last().bias));
-        text += ". ";
-    }
-    return text;
 }
 
 } // namespace tyndall::study

@@ -19,10 +19,6 @@ std::string slope_sentence(const Results& results);
 std::string marching_sentence(const Results& results);
 std::string orders_sentence(const Results& results);
 std::string cells_sentence(const Results& results);
-/// What each technique of a family takes to the accuracy of the reader's choice, against the
-/// baseline.
-std::string family_sentence(const Results& results, Family family);
-
 /// Time per sample over that of the baseline.
 double relative_cost(const Results& results, const TechniqueResult& technique);
 

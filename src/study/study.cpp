@@ -105,13 +105,18 @@ void Study::find_reference() {
                                         "nothing to measure errors against");
 }
 
-/// From the member of its series before it: time grows with the parameter, for marching.
+/// From the members of its series before it: marching takes as long as it has steps.
 double Study::expected_seconds(const Technique& technique) const {
     double expected = 0;
-    for (const TechniqueResult& t : results_.techniques)
-        if (technique.family == Family::marching && t.series == technique.series &&
-            t.parameter >= 16 && t.parameter < technique.parameter && t.is_measured())
-            expected = t.seconds_per_sample() * technique.parameter / t.parameter;
+    for (const TechniqueResult& t : results_.techniques) {
+        const double steps = technique.parameter / t.parameter;
+        if (technique.family != Family::marching || t.series != technique.series || steps <= 1)
+            continue;
+        if (!t.is_measured())
+            expected = t.first_seconds * steps;
+        else if (t.parameter >= 16) // with fewer, the rest of the path counts as much
+            expected = t.last().clock_seconds / t.last().samples * steps;
+    }
     return expected;
 }
 

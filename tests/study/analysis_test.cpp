@@ -1,5 +1,6 @@
 // What follows from measurements, on made-up ones.
 #include "study/analysis.h"
+#include "study/cost.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@ TechniqueResult technique(const std::string& name, double bias, double seconds_p
                           bool is_unbiased) {
     TechniqueResult t{.name = name, .title = name, .family = "estimators"};
     t.is_unbiased = is_unbiased;
+    t.seconds_per_sample = seconds_per_sample;
     for (std::uint32_t n = 1; n <= 1024; n *= 2) {
         const std::uint32_t slice = n == 1 ? 1 : n / 2;
         const double noise = 1.0 / n;
@@ -25,6 +27,22 @@ TechniqueResult technique(const std::string& name, double bias, double seconds_p
                             .slice_noise = {1.0 / slice, 0.01 / slice}});
     }
     return t;
+}
+
+TEST(Analysis, PricesSamplesAndRenders) {
+    TechniqueResult t;
+    double sum = 0;
+    for (std::uint32_t n = 1; n <= 64; n *= 2) {
+        const std::uint32_t slice = n == 1 ? 1 : n / 2;
+        sum += 0.05 + 0.01 * slice;
+        t.levels.push_back({.samples = n, .seconds = sum, .slice_samples = slice});
+    }
+    t.equal_time = {.samples = 100, .seconds = 1.05};
+    price(t);
+    EXPECT_NEAR(t.seconds_per_render, 0.05, 1e-9);
+    EXPECT_NEAR(t.seconds_per_sample, 0.01, 1e-9);
+    for (const Level& level : t.levels)
+        EXPECT_NEAR(level.seconds, 0.05 + 0.01 * level.samples, 1e-9);
 }
 
 TEST(Analysis, FitsTheSlopeOfNoise) {
