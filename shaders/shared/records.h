@@ -301,11 +301,12 @@ TYNDALL_CONSTANT uint PATH_RADIANCE =
 TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of batch, weight
 TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the batch: weight * radiance, weight
 TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in the window | unused
-TYNDALL_CONSTANT uint PATH_HIT = 7u; // distance, primitive, instance | distance before the segment
-TYNDALL_CONSTANT uint PATH_SPECTRAL = 8u; // ratios r rgb (chromatic media) | unused
+// The rest is there only as far as a scene needs it (render/stages.h).
+TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
+TYNDALL_CONSTANT uint PATH_HIT = 8u; // distance, primitive, instance | distance before the segment
+TYNDALL_CONSTANT uint PATH_TRACK = 9u; // how far tracking has come along the segment | unused
 TYNDALL_CONSTANT uint PATH_SHADOW =
-    9u; // 3: origin | medium; direction | distance; contribution | target
-TYNDALL_CONSTANT uint PATH_TRACK = 12u; // how far tracking has come along the segment | unused
+    10u; // 3: origin | medium; direction | distance; contribution | target
 TYNDALL_CONSTANT uint PATH_GROUPS = 13u;
 
 // Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight, and the sum of

@@ -19,7 +19,8 @@ void main() {
         hit = trace(p.origin, p.direction, INFINITY, false, NONE);
         const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);
-        if (has_media != 0u && p.medium != VACUUM && (has_scattering != 0u || densities != 0u)) {
+        // Constants first: what they rule out goes before the driver sees it.
+        if (has_media != 0u && (has_scattering != 0u || densities != 0u) && p.medium != VACUUM) {
             load_sample(slot, p);
             const Medium medium = load_medium(p.medium);
             const float column =

@@ -1,9 +1,7 @@
 #include "cli/options.h"
-#include "cli/phase_report.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
 #include "gpu/context.h"
-#include "render/effects.h"
 #include "scene/options.h"
 #include "scene/reader.h"
 
@@ -127,35 +125,6 @@ int run_devices(const DevicesOptions& options) {
         std::printf("reference: the renderer in double precision on the CPU, for comparison\n");
     }
     return static_cast<int>(devices.empty() ? ExitStatus::no_device : ExitStatus::done);
-}
-
-int run_info(const InfoOptions& options) {
-    const Scene scene = load_scene(options.scene, options.json);
-    const Effects effects = compute_effects(scene);
-    json list = json::array();
-    std::size_t width = 0;
-    for (const Effect& e : effects.list) {
-        list.push_back({{"effect", e.name}, {"value", e.value}, {"called_for_by", e.called_for}});
-        width = std::max(width, e.name.size());
-    }
-    if (!options.phase_plot.empty()) plot_phases(scene, options.phase_plot);
-    json info{{"scene", scene.filename},
-              {"width", scene.film.bounds.width()},
-              {"height", scene.film.bounds.height()},
-              {"spp", scene.samples_per_pixel},
-              {"effects", list}};
-    if (options.phase) info["phases"] = describe_phases(scene);
-    if (options.json) {
-        std::printf("%s\n", info.dump(2).c_str());
-        return 0;
-    }
-    std::printf("%s: %d x %d, %d spp\n", scene.filename.c_str(), scene.film.bounds.width(),
-                scene.film.bounds.height(), scene.samples_per_pixel);
-    for (const Effect& e : effects.list)
-        std::printf("  %-*s  %-12s  %s\n", static_cast<int>(width), e.name.c_str(),
-                    e.value == "no" ? "not simulated" : e.value.c_str(), e.called_for.c_str());
-    if (options.phase) print_phases(scene);
-    return 0;
 }
 
 } // namespace tyndall::cli

@@ -26,7 +26,9 @@ json effects_json(const Effects& effects) {
 class DeviceEngine final : public Engine {
   public:
     DeviceEngine(const Scene& scene, const DeviceOptions& options)
-        : context_({.device = options.device, .validate = options.validate}),
+        : context_({.device = options.device,
+                    .validate = options.validate,
+                    .cache_folder = gpu::default_cache_folder()}),
           renderer_(context_, scene, options.tuning) {}
 
     std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
@@ -60,6 +62,7 @@ void DeviceEngine::describe(json& stats) const {
     stats["effects"] = effects_json(renderer_.effects());
     stats["seconds"]["build"] = renderer_.build_seconds();
     stats["seconds"]["compile"] = renderer_.compile_seconds();
+    stats["pipeline_cache_bytes"] = context_.pipelines().loaded_bytes();
     for (const StageTime& stage : renderer_.stage_times())
         stats["stages"].push_back(
             {{"name", stage.name}, {"dispatches", stage.dispatches}, {"seconds", stage.seconds}});

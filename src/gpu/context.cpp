@@ -216,7 +216,7 @@ Context::Context(const ContextOptions& options) {
                     fmt::format("no Vulkan loader (libvulkan.so.1): {}", kInstallHint));
     try {
         create_instance(options.validate);
-        create_device(options.device);
+        create_device(options);
     } catch (...) {
         destroy();
         throw;
@@ -230,6 +230,8 @@ Context::~Context() {
 void Context::destroy() {
     if (device_) {
         vkDeviceWaitIdle(device_);
+        pipelines_.save();
+        pipelines_ = {};
         vkDestroyDevice(device_, nullptr);
     }
     if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
@@ -278,12 +280,12 @@ void Context::create_instance(bool validate) {
               "listen to the validation layer");
 }
 
-void Context::create_device(const std::string& selector) {
+void Context::create_device(const ContextOptions& options) {
     const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
     std::vector<DeviceInfo> infos;
     for (VkPhysicalDevice device : devices)
         infos.push_back(describe(device));
-    const std::size_t index = choose(infos, selector);
+    const std::size_t index = choose(infos, options.device);
     physical_device_ = devices[index];
     info_ = infos[index];
     queue_family_ = compute_family(physical_device_).value();
@@ -310,6 +312,7 @@ void Context::create_device(const std::string& selector) {
           "create a Vulkan device on " + info_.name);
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    pipelines_ = {device_, properties, options.cache_folder};
 }
 
 std::uint32_t Context::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "gpu/handle.h"
+#include "gpu/pipeline_cache.h"
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +35,8 @@ struct ContextOptions {
     /// Turns on the validation layer with synchronization validation; its messages are counted and
     /// printed to stderr. Throws if the layer is not installed.
     bool validate = false;
+    /// Where compiled pipelines are kept between runs (pipeline_cache.h); empty: nowhere.
+    std::filesystem::path cache_folder;
 };
 
 /// Owns instance and device. Not copied, not moved: everything else points to it.
@@ -47,6 +51,7 @@ class Context {
     VkDevice device() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
+    const PipelineCache& pipelines() const { return pipelines_; }
     const DeviceInfo& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
@@ -62,7 +67,7 @@ class Context {
   private:
     void create_instance(bool validate);
     void destroy();
-    void create_device(const std::string& selector);
+    void create_device(const ContextOptions& options);
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
@@ -70,6 +75,7 @@ class Context {
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
+    PipelineCache pipelines_;
     DeviceInfo info_;
     VkPhysicalDeviceLimits limits_{};
     double timestamp_period_ = 0;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 
+#include <algorithm>
 #include <spirv-tools/optimizer.hpp>
 #include <unordered_map>
 
@@ -37,6 +38,19 @@ std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> spirv,
     if (!optimizer.Run(spirv.data(), spirv.size(), &result, options))
         throw Error(ExitStatus::failed, "specialize stage " + name + ": " + message);
     return result;
+}
+
+std::size_t count_instructions(std::span<const std::uint32_t> spirv) {
+    constexpr std::size_t header = 5;                         // words
+    constexpr std::uint32_t function = 54, function_end = 56; // opcodes
+    std::size_t count = 0;
+    bool is_inside = false;
+    for (std::size_t at = header; at < spirv.size(); at += std::max(1u, spirv[at] >> 16)) {
+        const std::uint32_t opcode = spirv[at] & 0xFFFFu;
+        is_inside = opcode == function || (is_inside && opcode != function_end);
+        count += is_inside;
+    }
+    return count;
 }
 
 } // namespace tyndall::gpu

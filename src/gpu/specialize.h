@@ -3,6 +3,7 @@
 
 #include "shared/features.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -22,5 +23,8 @@ namespace tyndall::gpu {
 /// @throws Error if the module is damaged.
 std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> spirv,
                                       const shared::Features& features, const std::string& name);
+
+/// Instructions between the beginning and the end of functions.
+std::size_t count_instructions(std::span<const std::uint32_t> spirv);
 
 } // namespace tyndall::gpu

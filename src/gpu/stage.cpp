@@ -125,6 +125,7 @@ Stage::Stage(const Context& context, const Descriptors& descriptors, std::string
     : name_(std::move(name)), workgroup_size_(features.workgroup_size) {
     const VkDevice device = context.device();
     const std::vector<std::uint32_t> code = specialize(spirv, features, name_);
+    instructions_ = count_instructions(code);
     const VkShaderModuleCreateInfo create_module{.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                                  .codeSize = code.size() * sizeof(code[0]),
@@ -142,8 +143,9 @@ Stage::Stage(const Context& context, const Descriptors& descriptors, std::string
                   .pName = "main"},
         .layout = descriptors.layout()};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
-          "compile stage " + name_);
+    check(
+        vkCreateComputePipelines(device, context.pipelines().get(), 1, &create, nullptr, &pipeline),
+        "compile stage " + name_);
     pipeline_ = {device, pipeline};
     context.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name_);
 }

@@ -60,7 +60,7 @@ class Collector {
     const Scene& scene_;
     Effects effects_;
     bool has_isotropic_phases_ = false;
-    std::string phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
+    std::string emitter_by_, phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
 };
 
 std::string place(const char* what, const SourceLocation& where) {
@@ -83,7 +83,7 @@ void Collector::collect_geometry() {
     effects_.region = find_region(scene_);
     f.has_thin_panes = f.has_dispersion = 0;
     f.surface_queues = f.has_interfaces = f.has_emitters = f.has_shading_normals = 0;
-    std::string emitter_by, normals_by;
+    std::string normals_by;
     std::array<std::string, QUEUE_COUNT> surface_by;
     each_shape([&](const Shape& shape) {
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
@@ -92,7 +92,7 @@ void Collector::collect_geometry() {
         const std::uint32_t queue = queue_of(scene_.materials[shape.material]);
         f.surface_queues |= 1u << queue, surface_by[queue] = place("shape", shape.where);
         collect_material(scene_.materials[shape.material]);
-        if (shape.area_light >= 0) f.has_emitters = 1, emitter_by = place("shape", shape.where);
+        if (shape.area_light >= 0) f.has_emitters = 1, emitter_by_ = place("shape", shape.where);
     });
     f.has_interfaces = has_queue(QUEUE_INTERFACE);
     const int around = scene_.camera.medium;
@@ -110,9 +110,10 @@ void Collector::collect_geometry() {
     add("smooth metal", has_queue(QUEUE_CONDUCTOR), surface_by[QUEUE_CONDUCTOR]);
     add("rough metal", has_queue(QUEUE_ROUGH_CONDUCTOR), surface_by[QUEUE_ROUGH_CONDUCTOR]);
     add("dispersion", f.has_dispersion, dispersion_by_);
-    add("emitting surfaces", f.has_emitters, emitter_by);
+    add("emitting surfaces", f.has_emitters, emitter_by_);
     add("shading normals", f.has_shading_normals, normals_by);
-    add("instances", !scene_.instances.empty(), "ObjectInstance");
+    add("instances", !scene_.instances.empty(),
+        scene_.instances.empty() ? "" : place("instance", scene_.instances.back().where));
 }
 
 /// What the density of a medium calls for.
@@ -212,17 +213,18 @@ void Collector::collect_lights() {
     shared::Features& f = effects_.features;
     f.lights =
         (f.has_emitters ? LIGHTS_AREA : 0) | (emitting_grids(scene_).empty() ? 0 : LIGHTS_VOXELS);
-    std::string environment_by;
+    std::string environment_by, distant_by, point_by, spot_by;
     for (const Light& light : scene_.lights) {
+        const std::string by = place("light", light.where);
         if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
             effects_.environment += infinite->radiance;
-            environment_by = place("light", light.where);
+            environment_by = by;
         } else if (std::holds_alternative<DistantLight>(light.emitter)) {
-            f.lights |= LIGHTS_DISTANT;
+            f.lights |= LIGHTS_DISTANT, distant_by = by;
         } else if (std::holds_alternative<PointLight>(light.emitter)) {
-            f.lights |= LIGHTS_POINT;
+            f.lights |= LIGHTS_POINT, point_by = by;
         } else {
-            f.lights |= LIGHTS_SPOT;
+            f.lights |= LIGHTS_SPOT, spot_by = by;
         }
     }
     f.has_environment = !is_black(effects_.environment);
@@ -232,11 +234,11 @@ void Collector::collect_lights() {
     if (f.has_scattering) effects_.lit_ball = find_lit_ball(scene_);
     f.has_lit_ball = effects_.lit_ball.has_value();
     add("environment", f.has_environment, environment_by);
-    add("area lights", f.lights & LIGHTS_AREA, "AreaLightSource");
-    add("grids as lights", f.lights & LIGHTS_VOXELS, "emission of media");
-    add("distant lights", f.lights & LIGHTS_DISTANT, "LightSource \"distant\"");
-    add("point lights", f.lights & LIGHTS_POINT, "LightSource \"point\"");
-    add("spot lights", f.lights & LIGHTS_SPOT, "LightSource \"spot\"");
+    add("area lights", f.lights & LIGHTS_AREA, emitter_by_);
+    add("grids as lights", f.lights & LIGHTS_VOXELS, grid_by_);
+    add("distant lights", f.lights & LIGHTS_DISTANT, distant_by);
+    add("point lights", f.lights & LIGHTS_POINT, point_by);
+    add("spot lights", f.lights & LIGHTS_SPOT, spot_by);
     add("roulette by reach of light", f.has_lit_ball, "a medium without end");
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -62,7 +63,11 @@ struct Renderer::Flight {
 };
 
 Renderer::Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning)
-    : context_(&context), effects_(compute_effects(scene)),
+    : Renderer(context, scene, compute_effects(scene), tuning) {}
+
+Renderer::Renderer(const gpu::Context& context, const Scene& scene, Effects effects,
+                   const Tuning& tuning)
+    : context_(&context), effects_(std::move(effects)),
       tables_(timed(build_seconds_, [&] { return make_scene_tables(scene, effects_); })),
       wavefront_(
           timed(compile_seconds_, [&] { return Wavefront(context, tables_, effects_, tuning); })) {

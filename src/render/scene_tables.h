@@ -21,6 +21,14 @@ struct SceneTables {
     std::size_t primitive_count = 0;
     std::uint32_t primitives = 0; ///< PRIMITIVE_* bits of what there is,
     std::uint32_t emitters = 0;   ///< and of what emits.
+
+    /// The features of the scene with those that follow from how it was packed.
+    shared::Features features(shared::Features scene) const {
+        scene.primitives = primitives;
+        scene.emitters = emitters;
+        scene.voxels_are_half = voxels.is_half;
+        return scene;
+    }
 };
 
 /// Packs the scene. World space is moved so that the camera is at the origin.

@@ -1,5 +1,6 @@
 #include "render/stages.h"
 
+#include "gpu/specialize.h"
 #include "spirv/cross_interface.h"
 #include "spirv/next_sample.h"
 #include "spirv/schedule.h"
@@ -74,6 +75,23 @@ const std::array<StageKind, 14> kStages{{
 
 std::span<const StageKind> stage_kinds() {
     return kStages;
+}
+
+std::uint32_t path_texels(const Features& features) {
+    if (samples_lights(features)) return PATH_GROUPS;
+    if (tracks_media(features)) return PATH_TRACK + 1;
+    if (has_hierarchy(features)) return PATH_HIT + 1;
+    return features.is_chromatic ? PATH_SPECTRAL + 1 : PATH_SPECTRAL;
+}
+
+std::vector<std::pair<std::string, std::size_t>>
+count_stage_instructions(const Features& features) {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    for (const StageKind& kind : stage_kinds())
+        if (kind.is_called_for(features))
+            counts.emplace_back(kind.name, gpu::count_instructions(gpu::specialize(
+                                               kind.spirv, kind.features(features), kind.name)));
+    return counts;
 }
 
 } // namespace tyndall

@@ -6,6 +6,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace tyndall {
 
@@ -34,5 +37,12 @@ struct StageKind {
 
 /// All stages, in the order in which a round runs those that the scene calls for.
 std::span<const StageKind> stage_kinds();
+
+/// Texels of state that a path in flight needs: PATH_* below are used, those from it on are not.
+std::uint32_t path_texels(const shared::Features& features);
+
+/// Instructions of SPIR-V, by stage that is called for, in order.
+std::vector<std::pair<std::string, std::size_t>>
+count_stage_instructions(const shared::Features& features);
 
 } // namespace tyndall

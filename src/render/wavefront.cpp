@@ -38,7 +38,7 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
 
 Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
                      const Tuning& tuning)
-    : context_(&context), features_(effects.features),
+    : context_(&context), features_(tables.features(effects.features)),
       tuning_(choose_tuning(context, effects.features, tuning)), push_(tables.push),
       table_bytes_(tables.bytes) {
     push_.slot_count = tuning_.slots;
@@ -48,7 +48,7 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     const std::uint64_t pixels = push_.pixel_count;
     const gpu::Buffer::Options texels{.texels = true};
     scene_ = {context, "scene", tables.texels.size() * 16, texels};
-    paths_ = {context, "paths", std::uint64_t{tuning_.slots} * PATH_GROUPS * 16, texels};
+    paths_ = {context, "paths", std::uint64_t{tuning_.slots} * path_texels(features_) * 16, texels};
     batches_ = {context, "batches", pixels * push_.window * 16, texels};
     film_ = {context, "film",
              (pixels * FILM_TEXELS + fold_lanes(push_.pixel_count) * ERROR_TEXELS) * 16, texels};
@@ -76,9 +76,6 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     features_.log_capacity = tuning_.log_capacity;
     features_.storage_fallback = descriptors_->storage_fallback();
     features_.loops_test_first = context.info().driver.starts_with("SwiftShader");
-    features_.primitives = tables.primitives;
-    features_.emitters = tables.emitters;
-    features_.voxels_are_half = tables.voxels.is_half;
 
     build_stages();
 }

@@ -68,7 +68,8 @@ void SceneBuilder::resolve_instances() {
     for (const PendingInstance& pending : pending_instances_) {
         const auto found = object_indices_.find(pending.name);
         if (found != object_indices_.end()) {
-            scene_.instances.push_back({found->second, pending.world_from_definition});
+            scene_.instances.push_back(
+                {found->second, pending.world_from_definition, pending.where});
         } else {
             report_undefined("object", pending.name, pending.where);
         }

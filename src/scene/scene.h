@@ -197,6 +197,7 @@ struct ObjectDefinition {
 struct ObjectInstance {
     int object = 0;
     glm::dmat4 world_from_definition{1};
+    SourceLocation where;
 };
 
 /// Camera space is left-handed: +x right, +y up, +z into the picture.

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "volume/field_assembly.h"
+#include "volume/vdb_lengths.h"
 
 #include <algorithm>
 #include <cstring>
@@ -192,6 +193,7 @@ bool is_vdb(std::string_view bytes) {
 }
 
 std::optional<Field> read_vdb(std::string_view bytes, const FieldRequest& request) {
+    check_vdb_lengths(bytes);
     try {
         MemoryArchive archive(bytes);
         const openvdb::GridBase::Ptr grid = archive.read(request);

@@ -29,8 +29,7 @@ struct FieldRequest {
 /// included, under an affine transform.
 ///
 /// Of several grids with the name the first counts. Files are not trusted: what is cut off or
-/// contradicts itself is refused, and memory is bounded by max_voxels; but OpenVDB's own reader
-/// believes the length of a text, up to 4 GiB, before it finds that the file is shorter.
+/// contradicts itself is refused, and memory is bounded by the file and max_voxels.
 ///
 /// @param bytes  of the file.
 /// @return Nothing if there is no such grid and that is allowed.

@@ -4,7 +4,10 @@
 #include "volume/volume_file.h"
 #include "volume/volume_writer.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
@@ -250,8 +253,35 @@ TEST(VolumeFileFuzz, TruncatedFilesAreRefused) {
     }
 }
 
-/// Keeps the process from more than 1 GiB of address space beyond what it has: OpenVDB may ask
-/// for 4.
+/// Each text of an OpenVDB file stands behind its length, which the library would believe.
+TEST(VolumeFileFuzz, LengthsBeyondTheFileTakeNoMemory) {
+    const std::string file = write_vdb({sample_grid()});
+    const auto peak = [] {
+        rusage usage;
+        getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss; // KiB
+    };
+    const long before = peak();
+    int lengths = 0;
+    for (std::size_t at = 8; at + 4 < std::min<std::size_t>(file.size(), 2000); ++at) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, &file[at], sizeof(length));
+        const bool is_text = length > 3 && length < 40 && at + 4 + length < file.size() &&
+                             std::all_of(&file[at + 4], &file[at + 4 + length],
+                                         [](unsigned char c) { return std::isprint(c) != 0; });
+        if (!is_text) continue;
+        ++lengths;
+        for (const std::uint32_t wrong : {0xFFFFFFF0u, 0x60000000u}) {
+            std::string damaged = file;
+            std::memcpy(&damaged[at], &wrong, sizeof(wrong));
+            EXPECT_EQ(error_of(damaged), "the OpenVDB file is cut off or damaged") << at;
+        }
+    }
+    EXPECT_GT(lengths, 8) << "no teeth";
+    EXPECT_LT(peak() - before, 64 << 10);
+}
+
+/// Keeps the process from more than 1 GiB of address space beyond what it has.
 class MemoryLimit {
   public:
     MemoryLimit() {
