@@ -4,8 +4,6 @@
 #include "selftest/cases.h"
 #include "selftest/functions.h"
 
-#include <numeric>
-
 namespace tyndall::selftest {
 namespace {
 
@@ -66,9 +64,8 @@ void Selftest::render(const Case& c) {
         add({is_grey ? c.name : c.name + ": " + "RGB"[k], c.expected[k],
              (1 + corrupt_) * mean.value[k],
              kPass * mean.standard_error[k] + c.rounding * c.expected[k]});
-    const HealthCounts& health = renderer.health();
-    mishaps_ +=
-        static_cast<double>(std::accumulate(health.begin(), health.end(), std::uint64_t{0}));
+    for (const shared::Mishap& kind : renderer.health().kinds)
+        mishaps_ += static_cast<double>(kind.count);
 }
 
 } // namespace
