@@ -29,17 +29,20 @@ int scene_medium(const Scene& scene, std::uint32_t record) {
     return record == VACUUM ? -1 : static_cast<int>(record % scene.media.size());
 }
 
-/// Stages of one event log in the order in which they run: light arrives after the path has gone
-/// on, or ended.
-int rank(std::uint32_t kind) {
+/// Order within an event: light arrives after the path has gone on, or ended.
+int rank(const EventRecord& record) {
+    const std::uint32_t kind = record.kind_and_medium >> 16;
     return kind < EVENT_LIGHT ? 0 : kind == EVENT_LIGHT ? 1 : 2;
 }
 
+/// Puts a log into the order of events, and gives an end the light that arrived after it.
 void sort_events(std::vector<EventRecord>& log) {
     std::stable_sort(log.begin(), log.end(), [](const EventRecord& a, const EventRecord& b) {
-        return std::tuple(a.event, rank(a.kind_and_medium >> 16)) <
-               std::tuple(b.event, rank(b.kind_and_medium >> 16));
+        return std::tuple(a.event, rank(a)) < std::tuple(b.event, rank(b));
     });
+    for (std::size_t i = 1; i < log.size(); ++i)
+        if (rank(log[i]) == 2 && rank(log[i - 1]) == 1 && log[i].event == log[i - 1].event)
+            log[i].radiance = log[i - 1].radiance;
 }
 
 } // namespace
