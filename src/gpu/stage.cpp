@@ -105,9 +105,9 @@ Descriptors::Descriptors(const Context& context, const Bindings& bindings, std::
         }
         const bool is_twin = i < shared::STORAGE_TWIN + shared::TEXEL_BUFFER_COUNT;
         const Buffer& buffer = is_twin ? *bindings.texel_buffers[i - shared::STORAGE_TWIN]
-                               : i == shared::BINDING_CONTROL ? *bindings.control
-                               : i == shared::BINDING_QUEUES  ? *bindings.queues
-                                                              : *bindings.log;
+                               : i == shared::BINDING_CONTROL             ? *bindings.control
+                               : i == shared::BINDING_LOG && bindings.log ? *bindings.log
+                                                                          : *bindings.queues;
         if (is_twin && buffer.exceeds_view()) {
             check_size(context, buffer, kTexelBufferNames[i - shared::STORAGE_TWIN]);
             storage_fallback_ |= 1u << (i - shared::STORAGE_TWIN);

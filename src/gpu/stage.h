@@ -18,7 +18,7 @@ struct Bindings {
         texel_buffers{}; ///< shared::BINDING_SCENE ... shared::BINDING_FILM
     const Buffer* control = nullptr;
     const Buffer* queues = nullptr;
-    const Buffer* log = nullptr;
+    const Buffer* log = nullptr; ///< Null where no kernel keeps one.
 };
 
 /// The one descriptor set, bound once a command buffer, and the pipeline layout (with push
