@@ -44,9 +44,9 @@ std::string progress_text(const ProgressFigures& f) {
     const double rate = f.paths_per_second * 1e-6;
     text += fmt::format("  {:.{}f} Mpaths/s", rate, rate < 0.0995 ? 3 : rate < 9.95 ? 1 : 0);
     if (f.error && f.error->relative_rmse > 0) text += goal_text(f);
-    if (!std::isfinite(f.left)) return text + fmt::format("  [{}]", format_clock(f.elapsed));
+    if (!std::isfinite(f.left)) return text + fmt::format(" [{}]", format_clock(f.elapsed));
     const double share = f.elapsed / std::max(f.elapsed + f.left, 1e-9);
-    return text + fmt::format("  [{:.0f} %, {}, {} left]", 100 * share, format_clock(f.elapsed),
+    return text + fmt::format(" [{:.0f}%, {}, {} left]", 100 * share, format_clock(f.elapsed),
                               format_clock(f.left));
 }
 

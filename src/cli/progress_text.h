@@ -18,7 +18,7 @@ struct ProgressFigures {
     double elapsed = 0, left = 0;       ///< Seconds; left is infinite if nothing tells the end.
 };
 
-/// "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  0.5 % in 38 s  [41 %, 0:26, 0:38 left]"
+/// "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  0.5 % in 38 s [41%, 0:26, 0:38 left]"
 std::string progress_text(const ProgressFigures& figures);
 
 /// "0.84 % error (0.80-0.89)"

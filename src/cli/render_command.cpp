@@ -148,7 +148,8 @@ bool Job::is_time_over() {
     return limits_.time && seconds_since(start_) + 1.5 * asking_interval_ >= *limits_.time;
 }
 
-/// Foresees the end, once: as soon as a look tells the error and the pace.
+/// Foresees the end, once: at the first look that is a tenth of the way to it, by which time the
+/// pace and the error are known.
 void Job::foresee(const Progress& progress) {
     constexpr double seconds_for_pace = 0.5;
     const Pace now = pace(progress);
@@ -156,7 +157,8 @@ void Job::foresee(const Progress& progress) {
         progress.batches < Limits::kFewestBatches || now.seconds < seconds_for_pace)
         return;
     const double before = std::chrono::duration<double>(render_start_ - start_).count();
-    report_.prediction = foresee_end(limits_, progress, now, before);
+    const Prediction end = foresee_end(limits_, progress, now, before);
+    if (progress.samples >= 0.1 * end.samples) report_.prediction = end;
 }
 
 bool Job::keep_going(const Progress& progress) {

@@ -31,7 +31,8 @@ std::uint32_t BatchRange::samples_before(std::uint32_t batch) const {
 }
 
 std::uint32_t BatchRange::next_look(std::uint32_t batch) const {
-    if (batch <= first_) return std::min(first_ + 2, end_);
+    for (const std::uint32_t early : {2u, 4u, 8u})
+        if (batch < first_ + early) return std::min(first_ + early, end_);
     const double wanted = first_sample_ + 1.1 * samples_before(batch);
     if (wanted >= end_sample_) return end_;
     return std::clamp(batch_of(static_cast<std::uint32_t>(wanted)) + 1, batch + 1, end_);

@@ -19,9 +19,9 @@ class BatchRange {
     std::uint32_t samples_of(std::uint32_t batch) const {
         return samples_before(batch + 1) - samples_before(batch);
     }
-    /// Where to look at the film next, if the batches before `batch` are in it: with two batches,
-    /// then whenever there are a tenth more samples. So there are few looks, and those who stop by
-    /// what they see have few chances to be misled. The end, if there is nothing between.
+    /// Where to look at the film next, if the batches before `batch` are in it: with 2, 4 and 8
+    /// batches, then whenever there are a tenth more samples. So there are few looks, and those who
+    /// stop by what they see have few chances to be misled. The end, if there is nothing between.
     std::uint32_t next_look(std::uint32_t batch) const;
 
   private:

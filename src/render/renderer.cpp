@@ -180,11 +180,14 @@ bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going)
             land(flights[i ^ 1]);
             return folded_batches_ == epoch_batch_ + batch_count;
         }
-        // Twice as much or half as much at a time: one submission is no reliable measure, and none
-        // at all if it had to wait for a look.
+        // Twice as much or half as much at a time: one submission is no reliable measure. Small
+        // pictures may have run out of work before a look: less at a time then, to see it sooner.
         const double seconds = seconds_since(last);
         last = Clock::now();
-        if (look_batch_ != look) continue;
+        if (look_batch_ != look) {
+            rounds_ = std::max(rounds_ / 4, 1u);
+            continue;
+        }
         if (seconds < 0.5 * kSubmitSeconds) rounds_ = std::min(rounds_ * 2, 1024u);
         if (seconds > 2.0 * kSubmitSeconds) rounds_ = std::max(rounds_ / 2, 1u);
     }

@@ -16,16 +16,16 @@ TEST(ProgressText, TellsErrorPaceAndGoal) {
                       .target_seconds = 38,
                       .elapsed = 26,
                       .left = 38};
-    EXPECT_EQ(progress_text(f), "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  0.5 % in 38 s  "
-                                "[41 %, 0:26, 0:38 left]");
+    EXPECT_EQ(progress_text(f), "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  0.5 % in 38 s "
+                                "[41%, 0:26, 0:38 left]");
     f.target_error.reset();
     f.target_seconds = 3;
     f.left = std::numeric_limits<double>::infinity();
     EXPECT_EQ(progress_text(f),
-              "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  half in 3.0 s  [0:26]");
+              "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  half in 3.0 s [0:26]");
     f.error.reset();
     f.left = 7500;
-    EXPECT_EQ(progress_text(f), "312 spp  4.1 Mpaths/s  [0 %, 0:26, 2:05:00 left]");
+    EXPECT_EQ(progress_text(f), "312 spp  4.1 Mpaths/s [0%, 0:26, 2:05:00 left]");
 }
 
 TEST(ProgressText, FitsOneLineOfHundredColumns) {
