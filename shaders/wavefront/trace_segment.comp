@@ -19,18 +19,20 @@ void main() {
         hit = trace(p.origin, p.direction, INFINITY, false, NONE);
         const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);
-        // Constants first: what they rule out goes before the driver sees it.
-        if (has_media != 0u && (has_scattering != 0u || densities != 0u) && p.medium != VACUUM) {
-            load_sample(slot, p);
-            const Medium medium = load_medium(p.medium);
-            const float column =
-                flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
-            const float flight = distance_of_column(medium, p.origin, p.direction, column);
-            if (is_tracked(medium)) {
-                queue = QUEUE_TRACK;
-            } else if (flight < hit.t) {
-                hit = Hit(flight, COLLISION, NONE);
-                queue = QUEUE_VOLUME;
+        // Two ifs: the outer is of constants alone, and goes with what is in it.
+        if (has_media != 0u && (has_scattering != 0u || densities != 0u)) {
+            if (p.medium != VACUUM) {
+                load_sample(slot, p);
+                const Medium medium = load_medium(p.medium);
+                const float column =
+                    flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
+                const float flight = distance_of_column(medium, p.origin, p.direction, column);
+                if (is_tracked(medium)) {
+                    queue = QUEUE_TRACK;
+                } else if (flight < hit.t) {
+                    hit = Hit(flight, COLLISION, NONE);
+                    queue = QUEUE_VOLUME;
+                }
             }
         }
         const float before = distance_travelled(slot, 0.0);

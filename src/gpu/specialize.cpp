@@ -31,6 +31,7 @@ std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> spirv,
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass()) // some are left by the first
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
