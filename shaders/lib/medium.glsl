@@ -2,7 +2,9 @@
 //
 // Flights are sampled with the scattering coefficient alone; absorption is the closed-form weight
 // exp(-sigma_a s) of the segment. So a purely absorbing medium has no noise at all, and with albedo
-// 0.8 variance times work is about half of that of flights by extinction.
+// 0.8 variance times work is about half of that of flights by extinction. Those are there to
+// compare (is_analog): a flight then ends in a collision that scatters or absorbs by a random
+// choice, and what is absorbed has met the emission of the medium.
 //
 // Where sigma_s differs between channels, one of them (the hero) samples the flight, and weights
 // follow the balance heuristic over the three ways in which the path could have been made
@@ -48,9 +50,18 @@ vec3 transmittance(Medium medium, float s) {
     return attenuation(medium.sigma_a + medium.sigma_s, s);
 }
 
-/// Free flight for the exponential variate tau; infinite where the channel does not scatter.
+/// Flights can end within a medium.
+const bool has_collisions = has_scattering != 0u || is_analog != 0u;
+
+/// The coefficient that flights are sampled with.
+vec3 collision_coefficient(Medium medium) {
+    return is_analog != 0u ? medium.sigma_a + medium.sigma_s : medium.sigma_s;
+}
+
+/// Free flight for the exponential variate tau; infinite where the channel does not collide.
 float flight_distance(Medium medium, uint hero, float tau) {
-    const float sigma = is_chromatic != 0u ? medium.sigma_s[hero] : medium.sigma_s.x;
+    const vec3 coefficient = collision_coefficient(medium);
+    const float sigma = is_chromatic != 0u ? coefficient[hero] : coefficient.x;
     return sigma > 0.0 ? tau / sigma : INFINITY;
 }
 
@@ -82,20 +93,27 @@ vec3 segment_emission(Medium medium, vec3 throughput, vec3 r, float s) {
     return throughput * medium.emission * sum;
 }
 
-/// Carries throughput and r over a segment of length s that ended in a collision or did not.
-void pass_segment(Medium medium, uint hero, float s, bool collided, inout vec3 throughput,
+// How a segment ends.
+#define END_PASSED 0u    // not in the medium
+#define END_SCATTERED 1u // in a collision that scatters
+#define END_ABSORBED 2u  // in one that absorbs (is_analog)
+
+/// Carries throughput and r over a segment of length s.
+void pass_segment(Medium medium, uint hero, float s, uint end, inout vec3 throughput,
                   inout vec3 r) {
+    const vec3 weight = is_analog != 0u ? vec3(1) : attenuation(medium.sigma_a, s);
     if (is_chromatic == 0u) {
-        throughput *= attenuation(medium.sigma_a, s);
+        throughput *= weight;
         return;
     }
     // Densities relative to that of the hero, whose exponential is at least e^-23: nothing
     // overflows.
-    const float sigma_hero = medium.sigma_s[hero];
-    vec3 density = attenuation(medium.sigma_s - sigma_hero, s);
-    if (collided) density *= medium.sigma_s / sigma_hero;
+    const vec3 sigma = collision_coefficient(medium);
+    vec3 density = attenuation(sigma - sigma[hero], s);
+    const vec3 ending = end == END_ABSORBED ? medium.sigma_a : medium.sigma_s;
+    if (end != END_PASSED) density *= ending / ending[hero];
     const float m = mean(r * density);
-    throughput *= density * attenuation(medium.sigma_a, s) / m;
+    throughput *= density * weight / m;
     r *= density / m;
 }
 

@@ -43,6 +43,11 @@ TYNDALL_CONSTANT uint PHASE_BIT_SCHLICK = 2u;
 TYNDALL_CONSTANT uint PHASE_BIT_RAYLEIGH = 4u;
 TYNDALL_CONSTANT uint PHASE_BIT_TABLE = 8u;
 
+TYNDALL_CONSTANT uint MARCH_NONE = 0u; // paths fly, and scatter
+TYNDALL_CONSTANT uint MARCH_UNIFORM = 1u;
+TYNDALL_CONSTANT uint MARCH_JITTERED = 2u;
+TYNDALL_CONSTANT uint MARCH_EQUIANGULAR = 3u;
+
 TYNDALL_CONSTANT uint FILTER_BOX = 0u;
 TYNDALL_CONSTANT uint FILTER_TRIANGLE = 1u;
 TYNDALL_CONSTANT uint FILTER_TABLE = 2u;
@@ -83,7 +88,10 @@ TYNDALL_SHARED_END
     X(30, has_lit_ball, 1)         /* all light comes from a ball, and a medium goes on around */  \
     X(31, event_limit, 4194304)    /* Integrator::event_limit */                                   \
     X(32, log_capacity, 0)         /* events that a replay keeps; 0: no log */                     \
-    X(33, loops_test_first, 0)     /* SwiftShader; see wavefront/phases.glsl */
+    X(33, loops_test_first, 0)     /* SwiftShader; see wavefront/phases.glsl */                    \
+    X(34, is_analog, 0)            /* flights end by absorption, too, and paths with them */       \
+    X(35, marches_shadows, 0)      /* shadow rays march through media that are tracked */          \
+    X(36, march, 0) /* MARCH_*: paths march through media that scatter, and scatter once there */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -13,7 +13,10 @@
 //   event n   BLOCK_PATH   0: free flight (full 32 bits)        1, 2: direction (phase or BSDF)
 //                          3: Russian roulette
 //             BLOCK_LIGHT  0: choice of light                   1, 2: position on the light
-//                          3: reflection or transmission
+//                          3: reflection or transmission; absorption or scattering (analog)
+//
+// In a march each step is an event: BLOCK_PATH 0: place in the step; 1, 2: direction of scattering
+// towards the environment; BLOCK_LIGHT as above, with 3: whether the environment is asked.
 //
 // In a medium that is tracked (voxels, spherical atmosphere) each tentative collision is an event
 // of its own: BLOCK_PATH 0: optical distance, 1: corner of the trilinear tap, 2: real or null. A

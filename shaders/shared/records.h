@@ -75,12 +75,22 @@ struct CameraRecord {
 };
 TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
 
-/// The ball around all surfaces and lights (scene/lit_ball.h), after the camera.
+/// How long the steps of a march are. Follows the camera, which opens the scene buffer.
+struct MarchRecord {
+    uint steps;      ///< Of a march through one segment in one medium, ...
+    float step_size; ///< ... or, if > 0, their length at most.
+    uint pad0;
+    uint pad1;
+};
+TYNDALL_CONSTANT uint MARCH_TEXEL = CAMERA_TEXELS;
+TYNDALL_CONSTANT uint MARCH_STEPS_MAX = 1048576u;
+
+/// The ball around all surfaces and lights (scene/lit_ball.h), after that.
 struct BallRecord {
     vec3 center;
     float radius;
 };
-TYNDALL_CONSTANT uint LIT_BALL_TEXEL = CAMERA_TEXELS;
+TYNDALL_CONSTANT uint LIT_BALL_TEXEL = MARCH_TEXEL + 1u;
 
 /// A medium. Coefficients per scene unit.
 struct MediumRecord {

@@ -27,13 +27,28 @@ uint medium_beyond(ShapeRecord shape, SurfacePoint s, vec3 direction, uint mediu
     return medium == VACUUM ? VACUUM : medium + s.medium_shift;
 }
 
-/// Takes the path to the end of its segment at distance t: emission on the way, then throughput.
-/// Tracking has done so already.
+/// Whether a collision absorbs the path, rather than scattering it.
+bool is_absorbed(Path p, Medium medium) {
+    if (is_analog == 0u) return false;
+    const uint channel = is_chromatic != 0u ? p.hero : 0u;
+    const float scattered = medium.sigma_s[channel];
+    return unit_float(draw(p, BLOCK_LIGHT).w) * (scattered + medium.sigma_a[channel]) >= scattered;
+}
+
+/// Takes the path to the end of its segment at distance t: emission on the way, then throughput; a
+/// path that is absorbed ends. Tracking or marching has done so already.
 void travel(inout Path p, Medium medium, float t, bool collided) {
-    if (is_tracked(medium)) return;
+    if (is_carried(medium)) return;
     const float column = column_length(medium, p.origin, p.direction, t);
-    if (has_emission != 0u) p.radiance += segment_emission(medium, p.throughput, p.r, column);
-    pass_segment(medium, p.hero, column, collided, p.throughput, p.r);
+    if (has_emission != 0u && is_analog == 0u)
+        contribute(p, segment_emission(medium, p.throughput, p.r, column));
+    const bool absorbed = collided && is_absorbed(p, medium);
+    const uint end = absorbed ? END_ABSORBED : collided ? END_SCATTERED : END_PASSED;
+    pass_segment(medium, p.hero, column, end, p.throughput, p.r);
+    if (!absorbed) return;
+    if (has_emission != 0u) contribute(p, p.throughput * medium.emission);
+    log_path(EVENT_ABSORBED, p);
+    p.status = STATUS_ENDED;
 }
 
 /// Whether paths run into what light sampling chooses as well, and are weighed against it.

@@ -189,6 +189,13 @@ float voxel_light_pdf(float light_density, vec3 emission, vec3 extinction, float
            max(extinction.x, max(extinction.y, extinction.z));
 }
 
+/// MIS weight of emission that a path comes upon `distance` after its last vertex.
+float emission_weight(Path p, Field f, vec3 emission, vec3 extinction, float distance) {
+    if ((lights & LIGHTS_VOXELS) == 0u || p.pdf == 0.0 || is_black(emission)) return 1.0;
+    return power_heuristic(
+        p.pdf, voxel_light_pdf(f.grid.light_density, emission, extinction, distance * distance));
+}
+
 /// Emission between voxels is trilinear in theirs: a voxel chosen by its emission, with an offset
 /// drawn from a tent on each axis, is a point chosen by the emission.
 void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSample s) {
@@ -219,15 +226,31 @@ void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSa
     s.target = TARGET_MEDIUM | v.medium;
 }
 
+LightRecord choose_light(uint word) {
+    uint index, fraction;
+    umulExtended(word, push.light_count, index, fraction);
+    const uvec4 cell = fetch_scene(push.alias_table + index);
+    if (float(fraction) * (1.0 / 4294967296.0) >= uintBitsToFloat(cell.x)) index = cell.y;
+    return load_light(index);
+}
+
+/// A point of a light, for steps about it; false if it is at infinity, or everywhere in a grid.
+bool light_place(LightRecord light, float u, float v, out vec3 place) {
+    if ((lights & LIGHTS_AREA) != 0u &&
+        (light.kind == LIGHT_AREA || light.kind == LIGHT_AREA_TWO_SIDED)) {
+        vec3 normal;
+        float density;
+        sample_emitter_area(load_primitive(light.primitive), u, v, place, normal, density);
+        return true;
+    }
+    place = light.position;
+    return light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
+}
+
 /// Draws a light and a direction to it from `from`; `words` are those of BLOCK_LIGHT of the path's
 /// event. Radiance is 0 if it does not shine here.
 LightSample sample_light(Path p, vec3 from, uvec4 words) {
-    uint index, fraction;
-    umulExtended(words.x, push.light_count, index, fraction);
-    const uvec4 cell = fetch_scene(push.alias_table + index);
-    if (float(fraction) * (1.0 / 4294967296.0) >= uintBitsToFloat(cell.x)) index = cell.y;
-    const LightRecord light = load_light(index);
-
+    const LightRecord light = choose_light(words.x);
     LightSample s = LightSample(vec3(0, 0, 1), INFINITY, vec3(0), 0.0, NONE);
     if ((lights & LIGHTS_VOXELS) != 0u && light.kind == LIGHT_VOXELS) {
         sample_voxel_light(light, from, draw(p, BLOCK_EMISSION), s);

@@ -10,7 +10,7 @@
 
 void escape(inout Path p, CameraRecord camera) {
     if (has_media != 0u && p.medium != VACUUM) travel(p, load_medium(p.medium), INFINITY, false);
-    if (has_environment != 0u) p.radiance += p.throughput * camera.environment;
+    if (has_environment != 0u) contribute(p, p.throughput * camera.environment);
     log_path(EVENT_ESCAPE, p);
     p.status = STATUS_ENDED;
 }

@@ -158,6 +158,11 @@ void begin_sample(inout Path p, CameraRecord camera) {
     p.event = 1u;
 }
 
+/// Adds light that the path brings to the camera: all that paths contribute comes through here.
+void contribute(inout Path p, vec3 light) {
+    p.radiance += light;
+}
+
 /// Whether the path may fly another segment: it has a direction, and events left.
 bool can_go_on(Path p) {
     return p.event < event_limit && is_unit(p.direction);

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Scatters paths that collided in a medium.   VOLUME queue -> ray, SHADOW | ENDED queue
+// Scatters paths that collided in a medium, or ends them.   VOLUME queue -> ray, SHADOW | ENDED
+// queue
 
 void main() {
     const uint slot = dequeue(QUEUE_VOLUME);
@@ -17,7 +18,7 @@ void main() {
     travel(p, medium, t, true);
     p.origin += t * p.direction;
     log_path(EVENT_COLLISION, p);
-    if (may_scatter(p)) {
+    if (p.status == STATUS_RAY && may_scatter(p)) {
         if (lights != 0u) cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
         scatter_in_medium(p, medium, draw(p, BLOCK_PATH));
     }

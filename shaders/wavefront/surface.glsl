@@ -12,7 +12,7 @@ vec3 emitted(Path p, SurfacePoint s, ShapeRecord shape, float distance) {
     if (!emits_towards((shape.flags & SHAPE_TWO_SIDED) != 0u, s.normal, -p.direction))
         return vec3(0);
     float mis = 1.0;
-    if (p.pdf > 0.0) {
+    if ((lights & LIGHTS_AREA) != 0u && p.pdf > 0.0) {
         const vec3 from = s.position - distance * p.direction;
         mis = power_heuristic(p.pdf, emitter_pdf(s.light, from, s.position, s.normal));
     }
@@ -48,7 +48,7 @@ void arrive(uint slot, out Path p, out SurfacePoint s, out ShapeRecord shape) {
     const Medium medium = load_medium(p.medium);
     travel(p, medium, hit.t, false);
     if (has_emitters != 0u && is_tracked(medium))
-        p.radiance += p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t));
+        contribute(p, p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t)));
     log_path(EVENT_SURFACE, p, s.position, s.shape);
 }
 

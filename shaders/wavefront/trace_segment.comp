@@ -20,16 +20,16 @@ void main() {
         const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);
         // Two ifs: the outer is of constants alone, and goes with what is in it.
-        if (has_media != 0u && (has_scattering != 0u || densities != 0u)) {
+        if (has_media != 0u && (has_collisions || densities != 0u)) {
             if (p.medium != VACUUM) {
                 load_sample(slot, p);
                 const Medium medium = load_medium(p.medium);
                 const float column =
                     flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
                 const float flight = distance_of_column(medium, p.origin, p.direction, column);
-                if (is_tracked(medium)) {
+                if (is_carried(medium)) {
                     queue = QUEUE_TRACK;
-                } else if (flight < hit.t) {
+                } else if (march == MARCH_NONE && flight < hit.t) {
                     hit = Hit(flight, COLLISION, NONE);
                     queue = QUEUE_VOLUME;
                 }
@@ -39,7 +39,7 @@ void main() {
         if (has_emitters != 0u && surface.primitive != NONE) {
             load_throughput(slot, p);
             load_radiance(slot, p);
-            p.radiance += expected_emission(p, surface, before);
+            contribute(p, expected_emission(p, surface, before));
             store_radiance(slot, p);
         }
         store_path(

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
+#include "wavefront/march.glsl"
 
 // Traces shadow rays: what reaches a path from the light it chose.   SHADOW queue -> radiance
 
@@ -8,6 +9,9 @@
 vec3 medium_transmittance(uint index, vec3 origin, vec3 direction, float t, Path p, inout uint step,
                           inout float worst_ratio) {
     const Medium medium = load_medium(index);
+    if (marches_shadows != 0u) {
+        if (is_tracked(medium)) return march_transmittance(medium, origin, direction, t);
+    }
     if (is_tracked(medium))
         return track_transmittance(medium, origin, direction, t, p, step, worst_ratio);
     return transmittance(medium, column_length(medium, origin, direction, t));
@@ -60,7 +64,7 @@ void main() {
     const vec3 seen =
         visibility(floats(a), floats(b), uintBitsToFloat(b.w), a.w, c.w, p, worst_ratio);
     const vec3 added = colour(floats(c)) * seen;
-    p.radiance += added;
+    contribute(p, added);
     store_radiance(slot, p);
     log_light(p, floats(a), floats(b), a.w, added);
     if (densities != 0u) report_majorant_ratio(worst_ratio);

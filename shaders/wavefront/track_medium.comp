@@ -4,27 +4,30 @@
 
 // Flies paths through media on voxels and spherical atmospheres: delta tracking against local
 // majorants. Absorption is a weight at null collisions, emission is collected at every tentative
-// one.
+// one; or both are what ends a path (is_analog).
 //
 //   TRACK queue -> VOLUME | SURFACE | INTERFACE | ENDED queue, or tracking goes on in the next
 //   round
 
-/// Weight of a tentative collision that was taken for real or null, over the density of that
-/// choice, and the spectral ratios after it (lib/medium.glsl).
-void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, bool is_real) {
+/// Weight of a tentative collision that was taken for what it is, END_PASSED being a null one, over
+/// the density of that choice, and the spectral ratios after it (lib/medium.glsl).
+void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, uint end) {
     // Where the majorant is tight, rounding must not make a weight negative.
-    const vec3 f = is_real ? scattered : max(1.0 - scattered - absorbed, 0.0);
-    const vec3 density = is_real ? scattered : max(1.0 - scattered, 0.0);
+    const vec3 f = end == END_SCATTERED  ? scattered
+                   : end == END_ABSORBED ? absorbed
+                                         : max(1.0 - scattered - absorbed, 0.0);
+    const vec3 density = is_analog != 0u || end == END_SCATTERED ? f : max(1.0 - scattered, 0.0);
     const float m = is_chromatic != 0u ? mean(p.r * density) : density.x;
     p.throughput *= f / m;
     if (is_chromatic != 0u) p.r *= density / m;
 }
 
-/// MIS weight of emission that a path comes upon `distance` after its last vertex.
-float emission_weight(Path p, Field f, vec3 emission, vec3 extinction, float distance) {
-    if ((lights & LIGHTS_VOXELS) == 0u || p.pdf == 0.0 || is_black(emission)) return 1.0;
-    return power_heuristic(
-        p.pdf, voxel_light_pdf(f.grid.light_density, emission, extinction, distance * distance));
+/// What a tentative collision is, by a uniform number.
+uint choose_end(Path p, vec3 absorbed, vec3 scattered, float u) {
+    const uint channel = is_chromatic != 0u ? p.hero : 0u;
+    if (u < scattered[channel]) return END_SCATTERED;
+    return is_analog != 0u && u < scattered[channel] + absorbed[channel] ? END_ABSORBED
+                                                                         : END_PASSED;
 }
 
 void main() {
@@ -41,7 +44,8 @@ void main() {
     const Field f = begin_field(medium, p.origin, p.direction, uintBitsToFloat(hit.x), t);
     if (p.status == STATUS_TRACKING) t = uintBitsToFloat(load_path(PATH_TRACK, slot).x);
 
-    bool goes_on = t < f.t_end, is_real = false;
+    bool goes_on = t < f.t_end;
+    uint end = END_PASSED;
     uint steps = 0u;
     float worst_ratio = 0.0;
     do {
@@ -51,23 +55,31 @@ void main() {
         if (goes_on) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
             const vec3 absorbed = tap.sigma_a / bound, scattered = tap.sigma_s / bound;
+            const vec3 extinction = absorbed + scattered;
+            vec3 seen = vec3(0); // emission of an absorption, weighed
             if (has_emission != 0u) {
                 const vec3 emission = absorbed * tap.emission;
-                p.radiance += p.throughput * emission *
-                              emission_weight(p, f, emission, absorbed + scattered,
-                                              uintBitsToFloat(hit.w) + t);
+                const float mis =
+                    emission_weight(p, f, emission, extinction, uintBitsToFloat(hit.w) + t);
+                if (is_analog == 0u) contribute(p, p.throughput * emission * mis);
+                seen = tap.emission * mis;
             }
-            is_real = unit_float(words.z) < scattered[is_chromatic != 0u ? p.hero : 0u];
-            weigh_collision(p, absorbed, scattered, is_real);
-            if (!is_real) log_path(EVENT_NULL_COLLISION, p, p.origin + t * p.direction, NONE);
-            const vec3 extinction = absorbed + scattered;
+            end = choose_end(p, absorbed, scattered, unit_float(words.z));
+            weigh_collision(p, absorbed, scattered, end);
+            if (has_emission != 0u && end == END_ABSORBED) contribute(p, p.throughput * seen);
+            if (end == END_PASSED)
+                log_path(EVENT_NULL_COLLISION, p, p.origin + t * p.direction, NONE);
             worst_ratio = max(worst_ratio, max(extinction.x, max(extinction.y, extinction.z)));
             ++p.event;
-            goes_on = !is_real && t < f.t_end && !is_black(p.throughput) && p.event < event_limit;
+            goes_on = end == END_PASSED && t < f.t_end && !is_black(p.throughput) &&
+                      p.event < event_limit;
         }
     } while (goes_on && ++steps < push.run_length);
 
-    p.status = goes_on ? STATUS_TRACKING : is_black(p.throughput) ? STATUS_ENDED : STATUS_RAY;
+    const bool is_real = end == END_SCATTERED;
+    p.status = goes_on                                         ? STATUS_TRACKING
+               : end == END_ABSORBED || is_black(p.throughput) ? STATUS_ENDED
+                                                               : STATUS_RAY;
     if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(t), 0u, 0u, 0u));
     if (is_real) store_path(PATH_HIT, slot, uvec4(floatBitsToUint(t), COLLISION, NONE, hit.w));
     if (p.status == STATUS_ENDED) log_path(EVENT_ABSORBED, p);

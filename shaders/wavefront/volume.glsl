@@ -256,4 +256,9 @@ bool is_tracked(Medium medium) {
            (medium.density_kind == DENSITY_GRID || medium.density_kind == DENSITY_SPHERE);
 }
 
+/// Whether a stage of its own takes paths through the medium: track_medium, or march_medium.
+bool is_carried(Medium medium) {
+    return is_tracked(medium) || (march != MARCH_NONE && !is_black(medium.sigma_s));
+}
+
 #endif

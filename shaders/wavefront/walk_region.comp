@@ -34,21 +34,20 @@ void advance(inout Path p, Medium medium, vec3 environment) {
     const uvec4 words = draw(p, BLOCK_PATH);
     const float boundary =
         geometry == GEOMETRY_NONE ? INFINITY : region_exit(p.origin, p.direction);
-    const float flight = has_scattering != 0u
-                             ? flight_distance(medium, p.hero, exponential_variate(words.x))
-                             : INFINITY;
+    const float flight =
+        has_collisions ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
     const bool collided = inside && flight < boundary;
     const float t = min(flight, boundary);
     if (inside) travel(p, medium, t, collided);
     if (collided) {
         p.origin += t * p.direction;
         log_path(EVENT_COLLISION, p);
-        if (may_scatter(p)) {
+        if (p.status == STATUS_RAY && may_scatter(p)) {
             if (lights != 0u) {
                 const LightSample light = light_in_medium(p, medium);
                 const vec3 added = light.radiance * region_transmittance(p.origin, light.direction,
                                                                          light.distance, medium);
-                p.radiance += added;
+                contribute(p, added);
                 if (!is_black(light.radiance))
                     log_light(p, p.origin, light.direction, p.medium, added);
             }
@@ -56,7 +55,7 @@ void advance(inout Path p, Medium medium, vec3 environment) {
         }
     } else {
         if (log_capacity != 0u && geometry != GEOMETRY_NONE && inside) log_exit(p, t);
-        if (has_environment != 0u) p.radiance += p.throughput * environment;
+        if (has_environment != 0u) contribute(p, p.throughput * environment);
         log_path(EVENT_ESCAPE, p);
         p.status = STATUS_ENDED;
     }

@@ -169,6 +169,20 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
     return sample;
 }
 
+std::optional<dvec3> Lights::place(const glm::uvec4& words) const {
+    const Emitter& emitter = emitters_[choice_.choose(words.x)];
+    if (const auto* point = std::get_if<PointLight>(&emitter))
+        return point->position - camera_position_;
+    if (const auto* spot = std::get_if<SpotLight>(&emitter))
+        return spot->position - camera_position_;
+    const auto* area = std::get_if<AreaEmitter>(&emitter);
+    if (!area) return std::nullopt;
+    const Surface& surface = geometry_.surfaces()[area->id.surface];
+    return surface
+        .point(area->id.primitive, surface.sample(area->id.primitive, unit(words.y), unit(words.z)))
+        .position;
+}
+
 /// A voxel by its emission, a place around it by its tent: together, a point by the trilinear
 /// emission.
 std::optional<LightSample> Lights::sample_grid(const GridEmitter& light, const dvec3& place,

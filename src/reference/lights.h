@@ -35,6 +35,9 @@ class Lights {
     std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words,
                                       const glm::uvec4& voxel_words) const;
 
+    /// A point of the light that the words choose; none if it is at infinity, or a grid.
+    std::optional<dvec3> place(const glm::uvec4& words) const;
+
     /// Radiance that leaves a hit surface against the direction of the ray.
     Rgb emitted(const SurfaceHit& hit, const dvec3& ray_direction) const;
     /// Density per solid angle with which sample() draws the direction from the place to the hit.

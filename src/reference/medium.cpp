@@ -14,6 +14,11 @@ double decay(double sigma, double s) {
     return sigma == 0 ? 1 : std::exp(-sigma * s);
 }
 
+/// Where the optical depth is reached; infinite if it never is.
+double distance_of_depth(double sigma, double depth) {
+    return sigma == 0 ? std::numeric_limits<double>::infinity() : depth / sigma;
+}
+
 double mean(const Rgb& v) {
     return (v.x + v.y + v.z) / 3;
 }
@@ -65,9 +70,12 @@ double flight_optical_depth(std::uint32_t word) {
 }
 
 double flight_distance(const Medium& medium, int hero, std::uint32_t word) {
-    const double sigma_s = medium.sigma_s[hero];
-    if (sigma_s == 0) return std::numeric_limits<double>::infinity();
-    return flight_optical_depth(word) / sigma_s;
+    return distance_of_depth(medium.sigma_s[hero], flight_optical_depth(word));
+}
+
+double analog_flight_distance(const Medium& medium, int hero, std::uint32_t word) {
+    return distance_of_depth(medium.sigma_a[hero] + medium.sigma_s[hero],
+                             flight_optical_depth(word));
 }
 
 Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const Segment& segment) {
@@ -99,6 +107,27 @@ Throughput after_segment(const Medium& medium, const Throughput& before, const S
     return after;
 }
 
+Throughput after_event(const Rgb& probability, const Throughput& before) {
+    const Rgb factor = probability / mean(before.ratio * probability);
+    Throughput after = before;
+    after.beta *= factor;
+    after.ratio *= factor;
+    return after;
+}
+
+Throughput after_analog_flight(const Medium& medium, const Throughput& before, double length,
+                               AnalogEnd end) {
+    const Rgb sigma_t = medium.sigma_a + medium.sigma_s;
+    const Rgb ending = end == AnalogEnd::scattered  ? medium.sigma_s
+                       : end == AnalogEnd::absorbed ? medium.sigma_a
+                                                    : Rgb(1);
+    if (all_equal(sigma_t) && all_equal(ending)) return before; // exactly
+    Rgb probability;
+    for (int k = 0; k < 3; ++k)
+        probability[k] = ending[k] * decay(sigma_t[k] - sigma_t[before.hero], length);
+    return after_event(probability, before);
+}
+
 Throughput after_collision(const Rgb& absorbed, const Rgb& scattered, const Throughput& before,
                            bool is_real) {
     // Where the majorant is the extinction, rounding may take the shares beyond 1.
@@ -124,12 +153,7 @@ double mean_density(const Rgb& value, const Throughput& throughput) {
 }
 
 Throughput after_scattering(const Rgb& value, const Throughput& before) {
-    if (all_equal(value)) return before; // exactly
-    const Rgb factor = value / mean_density(value, before);
-    Throughput after = before;
-    after.beta *= factor;
-    after.ratio *= factor;
-    return after;
+    return all_equal(value) ? before : after_event(value, before); // exactly
 }
 
 Rgb transmittance(const Medium& medium, double distance) {

@@ -33,6 +33,8 @@ double flight_optical_depth(std::uint32_t word);
 
 /// Where the flight would collide, if nothing were in the way; may be infinite.
 double flight_distance(const Medium& medium, int hero, std::uint32_t word);
+/// The same for flights that absorption ends, too.
+double analog_flight_distance(const Medium& medium, int hero, std::uint32_t word);
 
 /// A segment that the flight has covered.
 struct Segment {
@@ -46,6 +48,18 @@ Rgb emitted_radiance(const Medium& medium, const Throughput& throughput, const S
 
 /// The throughput after the segment, before scattering.
 Throughput after_segment(const Medium& medium, const Throughput& before, const Segment& segment);
+
+/// What ends a flight through a medium in which absorption does, too.
+enum class AnalogEnd { passed, scattered, absorbed };
+
+/// The throughput after such a flight over a length of medium of density 1: its contribution is its
+/// probability, so that without colour nothing changes.
+Throughput after_analog_flight(const Medium& medium, const Throughput& before, double length,
+                               AnalogEnd end);
+
+/// The throughput after something that has this probability for each hero, which is also what it
+/// contributes.
+Throughput after_event(const Rgb& probability, const Throughput& before);
 
 /// The throughput after a tentative collision (reference/tracking.h) that was taken for a real one
 /// with the probability `scattered` of the hero, or else for none.

@@ -34,10 +34,10 @@ Rgb emission_at(const GridDensity& grid, const Rgb& coefficient, const glm::ivec
     return emission;
 }
 
-/// The part of the line within the box, cut to [0, t_end]; empty (first >= second) if there is
-/// none.
-std::pair<double, double> clip(const Ray& ray, const dvec3& lower, const dvec3& upper,
-                               double t_end) {
+} // namespace
+
+std::pair<double, double> clip_to_box(const Ray& ray, const dvec3& lower, const dvec3& upper,
+                                      double t_end) {
     double enter = 0, leave = t_end;
     for (int axis = 0; axis < 3; ++axis) {
         const double origin = ray.origin[axis], direction = ray.direction[axis];
@@ -51,8 +51,6 @@ std::pair<double, double> clip(const Ray& ray, const dvec3& lower, const dvec3& 
     }
     return {enter, leave};
 }
-
-} // namespace
 
 glm::ivec3 choose_corner(const dvec3& index, double u) {
     const dvec3 base = glm::floor(index);
@@ -73,7 +71,7 @@ GridFlight::GridFlight(const GridDensity& grid, const Medium& medium, const Ray&
                        double t_end)
     : grid_(grid), medium_(medium), ray_(local),
       sigma_max_(has_channel_grids(medium) ? 1 : largest(medium.sigma_a + medium.sigma_s)) {
-    std::tie(t_, t_end_) = clip(local, grid.lower, grid.upper, t_end);
+    std::tie(t_, t_end_) = clip_to_box(local, grid.lower, grid.upper, t_end);
     if (!(t_ < t_end_)) return;
     const MajorantGrid& m = grid.majorants;
     const dvec3 at = (ray_.origin + t_ * ray_.direction - dvec3(m.lower)) / double(m.size);

@@ -62,6 +62,10 @@ class AtmosphereFlight {
     double sigma_max_;
 };
 
+/// The part of a line within a box, cut to [0, t_end]; empty (first >= second) if there is none.
+std::pair<double, double> clip_to_box(const Ray& ray, const dvec3& lower, const dvec3& upper,
+                                      double t_end);
+
 /// The tentative collisions along a line, one after the other.
 class Flight {
   public:

@@ -3,6 +3,7 @@
 
 #include "reference/geometry.h"
 #include "reference/lights.h"
+#include "reference/march.h"
 #include "reference/medium.h"
 #include "reference/path_report.h"
 #include "reference/placed_medium.h"
@@ -47,10 +48,17 @@ class PathTracer {
     static Start leave_surface(const SurfaceHit& hit, const dvec3& direction,
                                const Surroundings& before);
 
+    Integrator::Placement placement() const { return scene_.integrator.placement; }
+
     const Scene& scene_;
     const Geometry& geometry_;
     const Lights& lights_;
     std::vector<PlacedMedium> media_; ///< Empty if media are ignored.
+    bool samples_lights_;
+    bool marches_; ///< And does not scatter in media more than once.
+    bool is_analog_;
+    bool marches_shadows_;
+    MarchSteps steps_;
     bool is_grey_;
     std::optional<Ball> lit_ball_; ///< In render space.
 };

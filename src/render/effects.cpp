@@ -22,6 +22,11 @@ bool is_black(const Rgb& c) {
     return c.r == 0 && c.g == 0 && c.b == 0;
 }
 
+/// Marching finds lights in no other way.
+bool samples_lights(const Integrator& integrator) {
+    return integrator.samples_lights || integrator.kind == Integrator::Kind::singlescatter;
+}
+
 /// Collects effects and remembers what called for each.
 class Collector {
   public:
@@ -53,6 +58,7 @@ class Collector {
     void collect_phases(const Medium& medium, const std::string& by);
     void tell_phases();
     void collect_media();
+    void check_can_be_found(const Light& light) const;
     void collect_lights();
     void collect_camera();
     bool is_all_grey() const;
@@ -96,7 +102,8 @@ void Collector::collect_geometry() {
     });
     f.has_interfaces = has_queue(QUEUE_INTERFACE);
     const int around = scene_.camera.medium;
-    const bool is_empty = scene_.shapes.empty() && scene_.instances.empty() &&
+    const bool is_empty = scene_.integrator.kind != Integrator::Kind::singlescatter &&
+                          scene_.shapes.empty() && scene_.instances.empty() &&
                           (around < 0 || scene_.media[around].is_homogeneous());
     f.geometry = effects_.region ? effects_.region->geometry
                  : is_empty      ? GEOMETRY_NONE
@@ -129,7 +136,8 @@ void Collector::collect_density(const Medium& medium, const std::string& by) {
         if (!grid->density) {
             // Coefficients by voxel and channel: taken for chromatic without looking at each voxel.
             f.has_rgb_grids = 1;
-            f.is_chromatic |= f.has_scattering;
+            if (scene_.integrator.kind == Integrator::Kind::volpath)
+                f.is_chromatic |= f.has_scattering | f.is_analog;
         }
         if (grid->temperature) f.has_temperature = 1, temperature_by_ = by;
     }
@@ -167,11 +175,11 @@ void Collector::tell_phases() {
 void Collector::collect_media() {
     shared::Features& f = effects_.features;
     f.densities = f.has_rgb_grids = f.has_temperature = 0;
-    f.has_media = f.has_scattering = f.has_emission = 0;
+    f.has_media = f.has_scattering = f.has_emission = f.is_analog = 0;
     f.phases = f.has_mixtures = f.has_chromatic_phases = 0;
     f.is_chromatic =
         f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
-    std::string media_by, scattering_by, emission_by, chromatic_by = dispersion_by_;
+    std::string media_by, scattering_by, emission_by, analog_by, chromatic_by = dispersion_by_;
     std::vector<bool> used(scene_.media.size(), false);
     const auto use = [&](int medium) {
         if (medium >= 0) used[medium] = true;
@@ -182,7 +190,8 @@ void Collector::collect_media() {
         use(shape.media.inside);
         use(shape.media.outside);
     });
-    const bool wanted = scene_.integrator.kind == Integrator::Kind::volpath;
+    const bool wanted = scene_.integrator.kind != Integrator::Kind::path;
+    const bool marches = scene_.integrator.kind == Integrator::Kind::singlescatter;
     for (std::size_t i = 0; wanted && i < scene_.media.size(); ++i) {
         if (!used[i]) continue;
         const Medium& m = scene_.media[i];
@@ -191,15 +200,25 @@ void Collector::collect_media() {
         if (!is_black(m.sigma_s)) {
             f.has_scattering = 1, scattering_by = by;
             collect_phases(m, by);
-            if (!is_grey(m.sigma_s) || is_chromatic(m.phases))
+            if ((!is_grey(m.sigma_s) && !marches) || is_chromatic(m.phases))
                 f.is_chromatic = 1, chromatic_by = by;
+        }
+        if (scene_.integrator.absorption == Integrator::Absorption::analog && !marches &&
+            !is_black(m.sigma_a)) {
+            f.is_analog = 1, analog_by = by;
+            if (!is_grey(m.sigma_a)) f.is_chromatic = 1, chromatic_by = by;
         }
         if (!is_black(m.emission) && !is_black(m.sigma_a)) f.has_emission = 1, emission_by = by;
         collect_density(m, by);
     }
+    if (marches && (f.has_scattering || f.densities & DENSITY_BITS_TRACKED))
+        f.march = MARCH_UNIFORM + static_cast<std::uint32_t>(scene_.integrator.placement);
+    f.marches_shadows = scene_.integrator.transmittance == Integrator::Transmittance::marched &&
+                        f.densities & DENSITY_BITS_TRACKED;
     effects_.has_camera_medium = f.has_media && scene_.camera.medium >= 0;
     add("media", f.has_media, media_by);
     add("scattering", f.has_scattering, scattering_by);
+    add_value("absorption", f.is_analog ? "analog" : "expected", analog_by);
     add("emission of media", f.has_emission, emission_by);
     tell_phases();
     add("spectral MIS", f.is_chromatic, chromatic_by);
@@ -207,6 +226,19 @@ void Collector::collect_media() {
     add("black body emission", f.has_temperature, temperature_by_);
     add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE),
         atmosphere_by_);
+    add_value("transmittance", f.marches_shadows ? "marched" : "unbiased");
+}
+
+/// Nothing runs into a light without a surface.
+void Collector::check_can_be_found(const Light& light) const {
+    if (samples_lights(scene_.integrator)) return;
+    const char* kind = std::holds_alternative<DistantLight>(light.emitter) ? "distant"
+                       : std::holds_alternative<PointLight>(light.emitter) ? "point"
+                                                                           : "spot";
+    throw SceneError(
+        {fmt::format("{}: error: nothing finds a {} light without light sampling "
+                     "(expected \"bool lightsampling\" true, or lights with a surface)",
+                     to_string(light.where), kind)});
 }
 
 void Collector::collect_lights() {
@@ -219,26 +251,31 @@ void Collector::collect_lights() {
         if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
             effects_.environment += infinite->radiance;
             environment_by = by;
-        } else if (std::holds_alternative<DistantLight>(light.emitter)) {
-            f.lights |= LIGHTS_DISTANT, distant_by = by;
-        } else if (std::holds_alternative<PointLight>(light.emitter)) {
-            f.lights |= LIGHTS_POINT, point_by = by;
-        } else {
-            f.lights |= LIGHTS_SPOT, spot_by = by;
+            continue;
         }
+        check_can_be_found(light);
+        if (std::holds_alternative<DistantLight>(light.emitter))
+            f.lights |= LIGHTS_DISTANT, distant_by = by;
+        else if (std::holds_alternative<PointLight>(light.emitter))
+            f.lights |= LIGHTS_POINT, point_by = by;
+        else
+            f.lights |= LIGHTS_SPOT, spot_by = by;
     }
     f.has_environment = !is_black(effects_.environment);
     // Light sampling starts from where light is scattered.
     if (!f.has_scattering && !(f.surface_queues & ~(1u << QUEUE_INTERFACE))) f.lights = 0;
-    effects_.samples_lights = f.lights != 0;
+    const std::uint32_t lights = f.lights;
+    effects_.lists_lights = f.lights != 0;
+    if (!samples_lights(scene_.integrator)) f.lights = 0;
     if (f.has_scattering) effects_.lit_ball = find_lit_ball(scene_);
     f.has_lit_ball = effects_.lit_ball.has_value();
     add("environment", f.has_environment, environment_by);
-    add("area lights", f.lights & LIGHTS_AREA, emitter_by_);
-    add("grids as lights", f.lights & LIGHTS_VOXELS, grid_by_);
-    add("distant lights", f.lights & LIGHTS_DISTANT, distant_by);
-    add("point lights", f.lights & LIGHTS_POINT, point_by);
-    add("spot lights", f.lights & LIGHTS_SPOT, spot_by);
+    add_value("light sampling", f.lights ? "on" : "off");
+    add("area lights", lights & LIGHTS_AREA, emitter_by_);
+    add("grids as lights", lights & LIGHTS_VOXELS, grid_by_);
+    add("distant lights", lights & LIGHTS_DISTANT, distant_by);
+    add("point lights", lights & LIGHTS_POINT, point_by);
+    add("spot lights", lights & LIGHTS_SPOT, spot_by);
     add("roulette by reach of light", f.has_lit_ball, "a medium without end");
 }
 
@@ -296,19 +333,6 @@ Effects Collector::collect() {
     return std::move(effects_);
 }
 
-/// Refuses what the scene language knows and no renderer does yet.
-void check_techniques(const Integrator& integrator) {
-    const auto require = [](bool is_supported, const char* what) {
-        if (!is_supported)
-            throw Error(ExitStatus::bad_input, fmt::format("{} is not supported yet", what));
-    };
-    require(integrator.kind != Integrator::Kind::singlescatter, "integrator \"singlescatter\"");
-    require(integrator.samples_lights, "\"bool lightsampling\" false");
-    require(integrator.absorption == Integrator::Absorption::expected, "absorption \"analog\"");
-    require(integrator.transmittance == Integrator::Transmittance::tracked,
-            "transmittance \"marched\"");
-}
-
 } // namespace
 
 std::uint32_t queue_of(const Material& material) {
@@ -330,7 +354,6 @@ std::uint32_t queue_of(const Material& material) {
 }
 
 Effects compute_effects(const Scene& scene) {
-    check_techniques(scene.integrator);
     return Collector(scene).collect();
 }
 

@@ -37,7 +37,7 @@ struct Effects {
     Rgb environment{0}; ///< Sum of the infinite lights.
     std::optional<Ball> lit_ball;
     bool has_camera_medium = false;
-    bool samples_lights = false; ///< Shadow rays are traced.
+    bool lists_lights = false; ///< Lights are sampled, or surfaces look their emission up.
     std::vector<Effect> list;
 };
 

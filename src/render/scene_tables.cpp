@@ -50,6 +50,7 @@ class Packer {
 
     void count_bytes(const char* name, std::size_t bytes);
     CameraRecord camera() const;
+    MarchRecord march() const;
     std::vector<glm::vec4> filter_table() const;
     std::vector<ShapeRecord> shapes();
     void collect_emitters();
@@ -123,6 +124,12 @@ CameraRecord Packer::camera() const {
     return record;
 }
 
+MarchRecord Packer::march() const {
+    const Integrator& integrator = scene_.integrator;
+    return {.steps = static_cast<std::uint32_t>(integrator.steps),
+            .step_size = static_cast<float>(integrator.step_size)};
+}
+
 std::vector<glm::vec4> Packer::filter_table() const {
     std::vector<glm::vec4> nodes;
     if (effects_.features.filter_kind != FILTER_TABLE) return nodes;
@@ -189,7 +196,7 @@ std::vector<LightRecord> Packer::lights() {
     constexpr double pi = 3.14159265358979323846;
     std::vector<LightRecord> records;
     std::vector<double> powers;
-    if (!effects_.samples_lights) return records;
+    if (!effects_.lists_lights) return records;
     // What a distant light shines on: the ball around all surfaces; without any, that of radius 1.
     const double diameter =
         glm::length(glm::dvec3(geometry_.bounds.upper) - glm::dvec3(geometry_.bounds.lower));
@@ -267,6 +274,7 @@ void Packer::pack_geometry() {
 
 SceneTables Packer::pack() {
     append(std::vector{camera()}, "camera");
+    append(std::vector{march()}, "march");
     if (const auto& ball = effects_.lit_ball)
         append(std::vector{BallRecord{ball->center - origin_, static_cast<float>(ball->radius)}},
                "lit ball");

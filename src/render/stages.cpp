@@ -2,6 +2,7 @@
 
 #include "gpu/specialize.h"
 #include "spirv/cross_interface.h"
+#include "spirv/march_medium.h"
 #include "spirv/next_sample.h"
 #include "spirv/schedule.h"
 #include "spirv/shade_conductor.h"
@@ -31,13 +32,17 @@ bool has_no_hierarchy(const Features& f) {
     return !has_hierarchy(f);
 }
 bool tracks_media(const Features& f) {
-    return has_hierarchy(f) && f.densities & DENSITY_BITS_TRACKED;
+    return has_hierarchy(f) && !f.march && f.densities & DENSITY_BITS_TRACKED;
 }
-bool scatters_in_media(const Features& f) {
-    return has_hierarchy(f) && f.has_scattering;
+bool marches_media(const Features& f) {
+    return f.march != MARCH_NONE;
 }
-bool samples_lights(const Features& f) {
-    return has_hierarchy(f) && f.lights;
+bool collides_in_media(const Features& f) {
+    return has_hierarchy(f) && !f.march && (f.has_scattering || f.is_analog);
+}
+/// Marching looks for light from the environment, too.
+bool casts_shadows(const Features& f) {
+    return has_hierarchy(f) && (f.lights || (f.march && f.has_scattering && f.has_environment));
 }
 template<std::uint32_t queue>
 bool has_surface(const Features& f) {
@@ -47,12 +52,13 @@ bool has_surface(const Features& f) {
 constexpr StageInput slots = StageInput::slots, queue = StageInput::queue;
 
 /// This list is the renderer.
-const std::array<StageKind, 14> kStages{{
+const std::array<StageKind, 15> kStages{{
     {"walk_region", walk_region_spirv, slots, 0, has_no_hierarchy},
 
     {"trace_segment", trace_segment_spirv, slots, 0, has_hierarchy},
     {"track_medium", track_medium_spirv, queue, QUEUE_TRACK, tracks_media},
-    {"shade_volume", shade_volume_spirv, queue, QUEUE_VOLUME, scatters_in_media},
+    {"march_medium", march_medium_spirv, queue, QUEUE_TRACK, marches_media},
+    {"shade_volume", shade_volume_spirv, queue, QUEUE_VOLUME, collides_in_media},
     {"shade_surface", shade_surface_spirv, queue, QUEUE_SURFACE, has_surface<QUEUE_SURFACE>},
     {"shade_dielectric", shade_dielectric_spirv, queue, QUEUE_DIELECTRIC,
      has_surface<QUEUE_DIELECTRIC>, false},
@@ -64,7 +70,7 @@ const std::array<StageKind, 14> kStages{{
      has_surface<QUEUE_ROUGH_CONDUCTOR>},
     {"cross_interface", cross_interface_spirv, queue, QUEUE_INTERFACE,
      has_surface<QUEUE_INTERFACE>},
-    {"trace_shadow", trace_shadow_spirv, queue, QUEUE_SHADOW, samples_lights},
+    {"trace_shadow", trace_shadow_spirv, queue, QUEUE_SHADOW, casts_shadows},
     {"next_sample", next_sample_spirv, queue, QUEUE_ENDED, has_hierarchy},
 
     {"schedule", schedule_spirv, StageInput::once, 0, always},

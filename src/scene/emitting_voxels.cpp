@@ -36,7 +36,7 @@ std::vector<int> emitting_grids(const Scene& scene) {
         use(shape.media.outside);
     }
     std::vector<int> grids;
-    if (scene.integrator.kind != Integrator::Kind::volpath) return grids;
+    if (scene.integrator.kind == Integrator::Kind::path) return grids;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         const Medium& m = scene.media[i];
         const bool emits = m.emission != Rgb(0) && m.sigma_a != Rgb(0);
@@ -46,9 +46,13 @@ std::vector<int> emitting_grids(const Scene& scene) {
     return grids;
 }
 
+Rgb voxel_absorption(const Medium& medium, const GridDensity& density, const glm::ivec3& voxel) {
+    const Rgb sigma_a = scaled(medium.sigma_a, density.sigma_a, voxel);
+    return density.density ? sigma_a * double{density.density->value(voxel)} : sigma_a;
+}
+
 Rgb voxel_emission(const Medium& medium, const GridDensity& density, const glm::ivec3& voxel) {
-    Rgb emission = scaled(medium.sigma_a, density.sigma_a, voxel);
-    if (density.density) emission *= density.density->value(voxel);
+    Rgb emission = voxel_absorption(medium, density, voxel);
     if (emission == Rgb(0)) return emission;
     emission *= scaled(medium.emission, density.emission, voxel);
     if (density.emission_scale) emission *= density.emission_scale->value(voxel);

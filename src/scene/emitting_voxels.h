@@ -22,6 +22,9 @@ std::vector<int> emitting_grids(const Scene& scene);
 /// sigma_a Le at a voxel: radiance per unit length.
 Rgb voxel_emission(const Medium& medium, const GridDensity& density, const glm::ivec3& voxel);
 
+/// sigma_a at a voxel.
+Rgb voxel_absorption(const Medium& medium, const GridDensity& density, const glm::ivec3& voxel);
+
 /// sigma_a + sigma_s at a voxel.
 Rgb voxel_extinction(const Medium& medium, const GridDensity& density, const glm::ivec3& voxel);
 

@@ -48,6 +48,34 @@ Scene stage() {
     return scene;
 }
 
+/// Smoke that glows, in itself and in an instance.
+Scene smoke_stage(const Rgb& sigma_s) {
+    Scene scene = stage();
+    const int smoke = add_medium(scene, {0.3, 0.1, 0.2}, sigma_s, 0.4);
+    const Lattice lattice{{-1, -1, -1}, {1, 1, 1}, {17, 12, 20}};
+    GridDensity density = lattice.density(
+        [](const glm::ivec3& v) { return v.x < 5 ? 0 : (v.x * v.y + 3 * v.z) % 7 / 6.0; }, 4);
+    density.temperature = lattice.grid([](const glm::ivec3& v) { return 250.0 * v.y; });
+    scene.media[0].density = density;
+    scene.media[0].emission = Rgb(0.02);
+    add_shape(scene, full_sphere(0.9), {.inside = smoke}, translation({-0.2, 0, 0}));
+    scene.objects.push_back({"smoke", {make_shape(full_sphere(0.9), {.inside = smoke})}});
+    scene.instances.push_back({0, translation({1.2, 0.3, 1}) * scaling({0.7, 1, 0.8})});
+    return scene;
+}
+
+/// Air over a plane or a ball.
+Scene air_stage(bool is_spherical) {
+    Scene scene = stage();
+    const int air = add_medium(scene, {0.05, 0.1, 0.2}, {0.5, 1, 2}, 0);
+    scene.media[0].density = ExponentialDensity{.is_spherical = is_spherical,
+                                                .origin = {0, is_spherical ? -21.2 : -1.2, 0},
+                                                .radius = 20,
+                                                .scale_height = 0.5};
+    add_shape(scene, box_mesh({-3, -1.3f, -3}, {3, 4, 3}), {.inside = air});
+    return scene;
+}
+
 TEST_F(SamePathsTest, AtBoundaries) {
     const Rgb gold_eta(0.14, 0.37, 1.44), gold_k(3.98, 2.38, 1.6);
     for (const double alpha : {0.0, 0.25}) {
@@ -71,33 +99,42 @@ TEST_F(SamePathsTest, AtBoundaries) {
 }
 
 TEST_F(SamePathsTest, ThroughGrids) {
-    for (const Rgb& sigma_s : {Rgb(3), Rgb(0.5, 3, 20)}) {
-        Scene scene = stage();
-        const int smoke = add_medium(scene, {0.3, 0.1, 0.2}, sigma_s, 0.4);
-        const Lattice lattice{{-1, -1, -1}, {1, 1, 1}, {17, 12, 20}};
-        GridDensity density = lattice.density(
-            [](const glm::ivec3& v) { return v.x < 5 ? 0 : (v.x * v.y + 3 * v.z) % 7 / 6.0; }, 4);
-        density.temperature = lattice.grid([](const glm::ivec3& v) { return 250.0 * v.y; });
-        scene.media[0].density = density;
-        scene.media[0].emission = Rgb(0.02);
-        add_shape(scene, full_sphere(0.9), {.inside = smoke}, translation({-0.2, 0, 0}));
-        scene.objects.push_back({"smoke", {make_shape(full_sphere(0.9), {.inside = smoke})}});
-        scene.instances.push_back({0, translation({1.2, 0.3, 1}) * scaling({0.7, 1, 0.8})});
+    for (const Rgb& sigma_s : {Rgb(3), Rgb(0.5, 3, 20)})
+        expect_same_paths(smoke_stage(sigma_s));
+}
+
+TEST_F(SamePathsTest, ThroughAtmospheres) {
+    for (const bool is_spherical : {false, true})
+        expect_same_paths(air_stage(is_spherical));
+}
+
+TEST_F(SamePathsTest, WithAnalogAbsorptionAndMarchedShadows) {
+    for (Scene scene : {smoke_stage(Rgb(0.5, 3, 20)), air_stage(false), air_stage(true)}) {
+        scene.integrator.absorption = Integrator::Absorption::analog;
+        scene.integrator.transmittance = Integrator::Transmittance::marched;
+        scene.integrator.step_size = 0.1;
         expect_same_paths(scene);
     }
 }
 
-TEST_F(SamePathsTest, ThroughAtmospheres) {
-    for (const bool is_spherical : {false, true}) {
-        Scene scene = stage();
-        const int air = add_medium(scene, {0.05, 0.1, 0.2}, {0.5, 1, 2}, 0);
-        scene.media[0].density = ExponentialDensity{.is_spherical = is_spherical,
-                                                    .origin = {0, is_spherical ? -21.2 : -1.2, 0},
-                                                    .radius = 20,
-                                                    .scale_height = 0.5};
-        add_shape(scene, box_mesh({-3, -1.3f, -3}, {3, 4, 3}), {.inside = air});
-        expect_same_paths(scene);
-    }
+TEST_F(SamePathsTest, WhereTheyMarch) {
+    using Placement = Integrator::Placement;
+    for (const Placement placement :
+         {Placement::uniform, Placement::jittered, Placement::equiangular})
+        for (Scene scene :
+             {smoke_stage(Rgb(0.5, 3, 20)), air_stage(placement != Placement::uniform)}) {
+            scene.integrator.kind = Integrator::Kind::singlescatter;
+            scene.integrator.placement = placement;
+            scene.integrator.steps = 5;
+            expect_same_paths(scene);
+        }
+}
+
+TEST_F(SamePathsTest, WithoutLightSampling) {
+    Scene scene = smoke_stage(Rgb(0.5, 3, 20));
+    scene.integrator.samples_lights = false;
+    scene.lights.erase(scene.lights.begin() + 1); // the sun, which nothing runs into
+    expect_same_paths(scene);
 }
 
 } // namespace

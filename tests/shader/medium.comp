@@ -26,7 +26,8 @@ Segment fly(Medium medium, uint hero, uint word, float end, vec3 throughput, vec
     } else {
         result.throughput = throughput;
         result.r = r;
-        pass_segment(medium, hero, result.s, result.collided, result.throughput, result.r);
+        pass_segment(medium, hero, result.s, result.collided ? END_SCATTERED : END_PASSED,
+                     result.throughput, result.r);
     }
     return result;
 }
