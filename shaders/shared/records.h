@@ -314,7 +314,8 @@ TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in t
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
 TYNDALL_CONSTANT uint PATH_HIT = 8u; // distance, primitive, instance | distance before the segment
-TYNDALL_CONSTANT uint PATH_TRACK = 9u; // how far tracking has come along the segment | unused
+// Tracking: how far it has come along the segment | unused. March: steps done | optical depth rgb.
+TYNDALL_CONSTANT uint PATH_TRACK = 9u;
 TYNDALL_CONSTANT uint PATH_SHADOW =
     10u; // 3: origin | medium; direction | distance; contribution | target
 TYNDALL_CONSTANT uint PATH_GROUPS = 13u;

@@ -47,6 +47,9 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
         ->add_option("-o,--output", o.outputs,
                      "Image file by extension: .exr .png .hdr .tif (repeatable)")
         ->allow_extra_args(false);
+    command->add_option("--aov", o.aovs, "More layers in .exr outputs: orders")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"orders"}));
     command->add_option("--time", o.time, "End after this many seconds")
         ->check(CLI::PositiveNumber);
     command->add_option("--target-error", o.target_error,

@@ -31,6 +31,7 @@ struct RenderOptions {
     SceneOptions scene;
     DeviceOptions device;
     std::vector<std::string> outputs;
+    std::vector<std::string> aovs;           ///< "orders"
     std::optional<double> time;              ///< Seconds.
     std::optional<std::string> target_error; ///< "0.005" or "0.5%"
     std::optional<double> write_interval;    ///< Seconds.

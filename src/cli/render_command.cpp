@@ -1,6 +1,7 @@
 #include "cli/engine.h"
 #include "cli/interrupt.h"
 #include "cli/limits.h"
+#include "cli/orders.h"
 #include "cli/progress_line.h"
 #include "cli/progress_text.h"
 #include "cli/report.h"
@@ -52,7 +53,8 @@ class Job {
   private:
     bool keep_going(const Progress& progress);
     std::string progress_text(const Progress& progress) const;
-    void write_images(double render_seconds);
+    void write_images(double render_seconds, bool is_final = false);
+    void choose_outputs();
     Limits limits() const;
     double pixels() const;
     Pace pace(const Progress& progress) const;
@@ -181,7 +183,7 @@ bool Job::keep_going(const Progress& progress) {
     return true;
 }
 
-void Job::write_images(double render_seconds) {
+void Job::write_images(double render_seconds, bool is_final) {
     report_.film = engine_->read_film();
     report_.samples = engine_->samples();
     report_.error = engine_->error();
@@ -189,16 +191,27 @@ void Job::write_images(double render_seconds) {
     report_.seconds.render = render_seconds;
     report_.seconds.total = seconds_since(start_);
     const ImageAttributes attributes = image_attributes(scene_, *engine_, report_);
+    Image picture = report_.film;
+    if (is_final && !options_.aovs.empty())
+        add_orders(picture, scene_, options_.device, report_.samples);
     for (const std::string& output : outputs_)
-        write_image(output, report_.film, attributes, {.half = scene_.film.half_float});
+        write_image(output, picture, attributes, {.half = scene_.film.half_float});
+}
+
+void Job::choose_outputs() {
+    outputs_ = options_.outputs.empty() ? std::vector{scene_.film.filename} : options_.outputs;
+    for (const std::string& output : outputs_)
+        check_image_extension(output);
+    const bool has_exr = std::any_of(outputs_.begin(), outputs_.end(),
+                                     [](const auto& output) { return output.ends_with(".exr"); });
+    if (!options_.aovs.empty() && !has_exr)
+        throw Error(ExitStatus::bad_input, "--aov asks for layers, which only an .exr output has");
 }
 
 int Job::run() {
     scene_ = load_scene(options_.scene, options_.quiet);
     report_.seconds.scene = seconds_since(start_);
-    outputs_ = options_.outputs.empty() ? std::vector{scene_.film.filename} : options_.outputs;
-    for (const std::string& output : outputs_)
-        check_image_extension(output);
+    choose_outputs();
     limits_ = limits();
     engine_ = make_engine(scene_, options_.device);
     if (!options_.quiet)
@@ -212,7 +225,7 @@ int Job::run() {
     if (report_.stopped_by == RenderReport::kUnfinished) report_.stopped_by = "spp";
     const double render_seconds = seconds_since(render_start_);
     line_.reset();
-    write_images(render_seconds);
+    write_images(render_seconds, report_.stopped_by != "signal");
     if (!options_.quiet) std::fputs(closing_text(scene_, report_).c_str(), stderr);
     std::fputs(health_text(engine_->health(), replay_command(options_.scene)).c_str(), stderr);
     if (!options_.stats.empty()) write_stats(options_.stats, scene_, *engine_, report_);

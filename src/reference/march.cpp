@@ -2,7 +2,6 @@
 
 #include "reference/tracking.h"
 #include "scene/emitting_voxels.h"
-#include "shared/records.h"
 
 #include <algorithm>
 
@@ -11,6 +10,7 @@ namespace {
 
 /// Density of an atmosphere beyond so many scale heights counts for nothing.
 constexpr double vacuum_heights = 20;
+constexpr double most_steps = 1 << 20;
 
 /// The part of a line within a ball around the origin.
 std::pair<double, double> chord(const Ray& ray, double radius) {
@@ -73,8 +73,7 @@ Rgb extinction_at(const MediumLine& line, double t) {
 
 int MarchSteps::over(double length) const {
     if (size == 0) return count;
-    return static_cast<int>(
-        std::clamp<double>(std::ceil(length / size), 1, shared::MARCH_STEPS_MAX));
+    return static_cast<int>(std::clamp<double>(std::ceil(length / size), 1, most_steps));
 }
 
 Steps::Steps(double begin, double end, int count) : begin_(begin), end_(end), count_(count) {}

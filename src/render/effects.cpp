@@ -227,6 +227,8 @@ void Collector::collect_media() {
     add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE),
         atmosphere_by_);
     add_value("transmittance", f.marches_shadows ? "marched" : "unbiased");
+    constexpr std::array<const char*, 4> steps{"none", "uniform", "jittered", "equiangular"};
+    add_value("marching", steps[f.march], f.march ? "Integrator \"singlescatter\"" : "");
 }
 
 /// Nothing runs into a light without a surface.

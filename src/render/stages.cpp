@@ -84,8 +84,8 @@ std::span<const StageKind> stage_kinds() {
 }
 
 std::uint32_t path_texels(const Features& features) {
-    if (samples_lights(features)) return PATH_GROUPS;
-    if (tracks_media(features)) return PATH_TRACK + 1;
+    if (casts_shadows(features)) return PATH_GROUPS;
+    if (tracks_media(features) || marches_media(features)) return PATH_TRACK + 1;
     if (has_hierarchy(features)) return PATH_HIT + 1;
     return features.is_chromatic ? PATH_SPECTRAL + 1 : PATH_SPECTRAL;
 }

@@ -67,6 +67,18 @@ outputs() {
   leaves_only a.exr a.json a.png
 }
 
+orders() {
+  expect 2 render "$scenes/slab.pbrt" $small --spp 4 --aov orders -o a.png
+  says 'only an .exr output has'
+  expect 2 render "$scenes/slab.pbrt" $small --spp 4 --aov depth -o a.exr
+  says --aov
+  leaves_only
+  expect 0 render "$scenes/slab.pbrt" $small --spp 4 --aov orders -o a.exr -o a.png
+  oiiotool --info -v a.exr >out
+  for word in order0.R order3.B order4+.G variance.B; do says "$word"; done
+  leaves_only a.exr a.png
+}
+
 same_seed() {
   expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o a.exr
   expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o b.exr --slots 128 --workgroup 32 --run-length 3
