@@ -22,7 +22,8 @@ std::vector<Rgb> layer(const Image& image, const std::string& name) {
 
 Image with_orders(const Scene& scene, const std::string& device, std::uint32_t samples) {
     Image film = render(scene, samples);
-    cli::add_orders(film, scene, {.device = device}, samples);
+    // With the layer, as the context of the tests: entry points are those of the process.
+    cli::add_orders(film, scene, {.device = device, .validate = true}, samples);
     return film;
 }
 
