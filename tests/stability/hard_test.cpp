@@ -1,9 +1,9 @@
-// Hard cases that are no row of the table: rays that must not leak, one voxel far above the rest,
-// sample indices next to their end.
+// Hard cases that are no row of the table: rays that must not leak, sample indices next to their
+// end, flights of next to no length.
 #include "device/device_test.h"
 #include "device/test_scenes.h"
+#include "selftest/cases.h"
 #include "selftest/evaluator.h"
-#include "support/volumes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using device_test::render;
 
 /// The camera in the tube of a black torus, which the sky must not find a way into.
 Scene dark_tube() {
-    Scene scene = empty_scene(64);
+    Scene scene = empty_scene(256);
     scene.camera.kind = Camera::Kind::perspective;
     scene.camera.fov = 140;
     scene.camera.screen_window_given = false;
@@ -30,37 +30,12 @@ Scene dark_tube() {
 
 class Leaks : public DeviceTest {};
 
-TEST_F(Leaks, TenMillionRaysStayInAClosedMesh) {
-    EXPECT_EQ(mean_of(render(dark_tube(), 10'000'000 / (64 * 64))).mean, Rgb(0));
+TEST_F(Leaks, MillionsOfRaysStayInAClosedMesh) {
+    EXPECT_EQ(mean_of(render(dark_tube(), 5'000'000 / (256 * 256))).mean, Rgb(0));
     Scene open = dark_tube(); // the control
-    std::get<Mesh>(open.shapes[0].geometry).triangles.pop_back();
-    EXPECT_GT(mean_of(render(open, 16)).mean.g, 0);
-}
-
-/// Ten million collisions do not carry a path out of a closed mesh either: what it holds conserves
-/// light, so that a leak would show as light from the sky.
-TEST_F(Leaks, CollisionsStayInAClosedMesh) {
-    Scene scene = dark_tube();
-    const int fog = add_medium(scene, Rgb(0.02), Rgb(20));
-    scene.camera.medium = fog;
-    scene.shapes[0].media = {fog, -1};
-    EXPECT_EQ(mean_of(render(scene, 16)).mean, Rgb(0));
-    scene.shapes[0].material = interface; // the control
-    EXPECT_GT(mean_of(render(scene, 1)).mean.g, 0);
-}
-
-class Voxels : public DeviceTest {};
-
-/// One voxel of a million among ones: the device and the reference, with the same random numbers.
-TEST_F(Voxels, OneHotVoxelAgreesWithTheReference) {
-    Scene scene = empty_scene(4);
-    scene.camera.world_from_camera = translation({0, 0, -4});
-    add_infinite(scene);
-    const int cloud = add_medium(scene, Rgb(0.2), Rgb(0.4), 0.3);
-    scene.media[0].density = Lattice{{-1, -1, -1}, {1, 1, 1}, {9, 9, 9}}.density(
-        [](const glm::ivec3& v) { return v == glm::ivec3(4, 4, 4) ? 1e6 : 1.0; });
-    add_shape(scene, full_sphere(3), {.inside = cloud});
-    device_test::expect_agreement(scene, 32, 0.06);
+    auto& triangles = std::get<Mesh>(open.shapes[0].geometry).triangles;
+    triangles.erase(triangles.begin() + 24, triangles.begin() + 48); // the second ring's
+    EXPECT_GT(mean_of(render(open, 1)).mean.g, 0);
 }
 
 class Samples : public DeviceTest {};
@@ -92,6 +67,16 @@ TEST_F(Flights, CollideInNextToNothing) {
     };
     EXPECT_NEAR(static_cast<double>(shorter(1e-8F)), 1e-8 * 0x1p32, 1);
     EXPECT_NEAR(static_cast<double>(shorter(5e-7F)), 5e-7 * 0x1p32, 1);
+}
+
+/// In a medium so dense that no flight moves a path, it leaves where it came in, as soon as its
+/// direction lets it. (Not by the reference: there a path that has crossed a boundary stands behind
+/// it by a rounding, which is 1e15 mean free paths.)
+TEST_F(Flights, OfNoLengthComeToAnEnd) {
+    Scene scene = selftest::slab_scene({1, 1e30, 0}, selftest::Lit::both_sides);
+    EXPECT_NEAR(mean_of(scene, 16).mean.g, 1, 2e-6);
+    scene.media[0].sigma_a = scene.media[0].sigma_s; // the control
+    EXPECT_LT(mean_of(scene, 16).mean.g, 0.9);
 }
 
 } // namespace
