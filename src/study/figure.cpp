@@ -33,7 +33,7 @@ std::string marks(const Range& range, const char* unit) {
     std::string text;
     for (int power = static_cast<int>(std::floor(std::log10(range.low)));
          power <= static_cast<int>(std::ceil(std::log10(range.high))); ++power)
-        for (const double digit : span > 60 ? few : span > 6 ? some : many) {
+        for (const double digit : span > 300 ? few : span > 6 ? some : many) {
             const double at = digit * std::pow(10.0, power);
             if (at < range.low || at > range.high) continue;
             text += fmt::format("{}\"{:.6g}{}\" {:.10g}", text.empty() ? "" : ", ", at, unit, at);

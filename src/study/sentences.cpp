@@ -140,13 +140,8 @@ std::string marching_sentence(const Results& results) {
         uniform.front()->parameter, uniform.front()->parameter == 1 ? "" : "s",
         told(uniform.front()->last().bias), last.parameter, told(last.last().bias));
     if (bounds(last.last().bias).is_told())
-        text += " More samples do not make that smaller: it is the floor on which the curves end.";
-    const TechniqueResult* jittered = most_steps(results, "march-jittered");
-    if (jittered && bounds(jittered->last().bias).is_told())
-        text += fmt::format(" Jittered steps estimate single scattering without bias of their own, "
-                            "so theirs, {}, is what light that scatters more than once adds to "
-                            "this picture.",
-                            told(jittered->last().bias));
+        text += " More samples do not make that smaller: it is the floor on which the curves end. "
+                "What more steps do not take away either is light that scatters more than once.";
     if (const auto fit = fit_bias(uniform); fit && fit->slope + kInterval * fit->slope_sd < -0.3)
         text += fmt::format(" Over all step counts it falls with the power {} of the steps.",
                             told(fit));
