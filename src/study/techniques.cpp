@@ -116,15 +116,6 @@ std::vector<Technique> list_techniques(const Scene& scene) {
     list_cells(base, list);
     list_phases(base, list);
     list_left_out(base, list);
-    // What the scene language knows and no renderer does yet.
-    std::erase_if(list, [&](const Technique& technique) {
-        try {
-            compute_effects(changed_scene(scene, technique));
-            return false;
-        } catch (const Error&) {
-            return true;
-        }
-    });
     return list;
 }
 
