@@ -85,7 +85,7 @@ Scene hot_voxel() {
     Scene scene = empty_scene(4);
     scene.camera.world_from_camera = translation({0, 0, -4});
     add_infinite(scene);
-    const int cloud = add_medium(scene, Rgb(0.5), Rgb(0.5));
+    const int cloud = add_medium(scene, Rgb(1), Rgb(0));
     scene.media[0].emission = Rgb(1);
     scene.media[0].density = Lattice{{-1, -1, -1}, {1, 1, 1}, {9, 9, 9}}.density(
         [](const glm::ivec3& v) { return v == glm::ivec3(4, 4, 4) ? 1e6 : 1.0; });
@@ -156,7 +156,7 @@ std::vector<Case> absorption() {
 std::vector<Case> grids() {
     const glm::ivec3 cube{11, 11, 9}; // its faces are beyond the picture
     return {
-        {"hot voxel", hot_voxel(), 16, Rgb(1), 1e-4},
+        {"hot voxel", hot_voxel(), 1, Rgb(1), 1e-4},
         {"grid of zeros", in_voxel_planes(zero, 1e6, cube), 1, Rgb(1)},
         // 8 deep; tracked by null collisions, which leave all light or none.
         {"rays in planes of voxels", in_voxel_planes(one, 0.1, cube), 4096, Rgb(std::exp(-0.8))},
