@@ -9,17 +9,25 @@
 //   TRACK queue -> VOLUME | SURFACE | INTERFACE | ENDED queue, or tracking goes on in the next
 //   round
 
-/// Weight of a tentative collision that was taken for what it is, END_PASSED being a null one, over
-/// the density of that choice, and the spectral ratios after it (lib/medium.glsl).
-void weigh_collision(inout Path p, vec3 absorbed, vec3 scattered, uint end) {
+/// Takes a null collision for what it is: the weight over the density of that choice, and the
+/// spectral ratios after it (lib/medium.glsl). Both as differences from 1: where the majorant is
+/// 1e6 times the extinction, 1 - 1e-6 in floats is off by 1 % of what is absorbed, each time.
+void pass_null_collision(inout Path p, vec3 absorbed, vec3 scattered) {
+    const vec3 extinction = absorbed + scattered;
+    const vec3 taken = is_analog != 0u ? extinction : scattered; // probability of anything else
+    // 1 - mean(r) is the rounding that r has gathered, which the sum must not pass on.
+    const float m_taken = is_chromatic != 0u ? (1.0 - mean(p.r)) + mean(p.r * taken) : taken.x;
+    const float m = 1.0 - m_taken;
     // Where the majorant is tight, rounding must not make a weight negative.
-    const vec3 f = end == END_SCATTERED  ? scattered
-                   : end == END_ABSORBED ? absorbed
-                                         : max(1.0 - scattered - absorbed, 0.0);
-    const vec3 density = is_analog != 0u || end == END_SCATTERED ? f : max(1.0 - scattered, 0.0);
-    const float m = is_chromatic != 0u ? mean(p.r * density) : density.x;
+    p.throughput += p.throughput * max((m_taken - extinction) / m, -1.0);
+    if (is_chromatic != 0u) p.r += p.r * max((m_taken - taken) / m, -1.0);
+}
+
+/// Takes a tentative collision for a real one, of coefficient f over the majorant.
+void take_collision(inout Path p, vec3 f) {
+    const float m = is_chromatic != 0u ? mean(p.r * f) : f.x;
     p.throughput *= f / m;
-    if (is_chromatic != 0u) p.r *= density / m;
+    if (is_chromatic != 0u) p.r *= f / m;
 }
 
 /// What a tentative collision is, by a uniform number.
@@ -65,7 +73,10 @@ void main() {
                 seen = tap.emission * mis;
             }
             end = choose_end(p, absorbed, scattered, unit_float(words.z));
-            weigh_collision(p, absorbed, scattered, end);
+            if (end == END_PASSED)
+                pass_null_collision(p, absorbed, scattered);
+            else
+                take_collision(p, end == END_SCATTERED ? scattered : absorbed);
             if (has_emission != 0u && end == END_ABSORBED) contribute(p, p.throughput * seen);
             if (end == END_PASSED)
                 log_path(EVENT_NULL_COLLISION, p, p.origin + t * p.direction, NONE);
