@@ -44,11 +44,14 @@ void arrive(uint slot, out Path p, out SurfacePoint s, out ShapeRecord shape) {
     s = surface_point(p.origin, p.direction, hit);
     note_mishap(HEALTH_COSINE, abs(dot(p.direction, s.shading)) > COSINE_MAX);
     shape = load_shape(s.shape);
-    if (has_media == 0u || p.medium == VACUUM) return;
-    const Medium medium = load_medium(p.medium);
-    travel(p, medium, hit.t, false);
-    if (has_emitters != 0u && is_tracked(medium))
-        contribute(p, p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t)));
+    if (has_media != 0u) { // alone, so that it goes with what is in it
+        if (p.medium != VACUUM) {
+            const Medium medium = load_medium(p.medium);
+            travel(p, medium, hit.t, false);
+            if (has_emitters != 0u && is_tracked(medium))
+                contribute(p, p.throughput * emitted(p, s, shape, distance_travelled(slot, hit.t)));
+        }
+    }
     log_path(EVENT_SURFACE, p, s.position, s.shape);
 }
 

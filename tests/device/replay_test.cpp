@@ -104,9 +104,7 @@ TEST_F(ReplayTest, TellsWhatIsRenderedAndAgreesWithTheReference) {
         }
         expect_rendered(scene, kPaths[0], device_replay(scene, kPaths[0]));
     }
-    // Rounding may decide otherwise, but seldom. The rest are lit by surfaces: there both tell the
-    // emission that a segment leads to, but not at the same event (18 of 25 are the same).
-    EXPECT_GE(same, all - 7);
+    EXPECT_GE(same, all - 2); // rounding may decide otherwise, but seldom
     EXPECT_GT(events, 8 * all);
 }
 
