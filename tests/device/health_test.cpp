@@ -4,6 +4,7 @@
 
 #include "phase/phase_table.h"
 #include "reference/reference.h"
+#include "render/bvh.h"
 #include "support/materials.h"
 #include "support/phases.h"
 #include "support/volumes.h"
@@ -218,6 +219,26 @@ TEST_F(HealthTest, ShadowRaysWithoutAnEnd) {
     EXPECT_EQ(with_paths - paths, across * across);
     scene.integrator.event_limit = 100;
     EXPECT_TRUE(reference_health(scene, 0, 1).is_good());
+}
+
+/// Inner nodes on the longest way down, each of which may leave a word on the stack of a traversal.
+std::uint32_t depth_of(const Bvh& bvh, std::uint32_t node) {
+    if (node & LEAF) return 0;
+    const NodeRecord& n = bvh.nodes[node];
+    return 1 + std::max(depth_of(bvh, n.child0), depth_of(bvh, n.child1));
+}
+
+/// No hierarchy needs more than the stack has, not of boxes whose sizes halve, which ask for a
+/// level each.
+TEST_F(HealthTest, HierarchiesFitTheStackOfTraversal) {
+    std::vector<Bounds> boxes;
+    for (int i = 0; i < 60; ++i)
+        boxes.push_back({glm::vec3(std::ldexp(1.0F, -i)), glm::vec3(std::ldexp(1.5F, -i))});
+    boxes.insert(boxes.end(), 5000, boxes.back());
+    const Bvh bvh = build_bvh(boxes, 1, 1);
+    const std::uint32_t depth = depth_of(bvh, bvh.root);
+    EXPECT_LE(depth, BVH_DEPTH_MAX);
+    EXPECT_GT(depth, 20); // a balanced one would have 13
 }
 
 TEST_F(HealthTest, WeightsThatNoExactSamplingHas) {
