@@ -21,52 +21,58 @@ struct SurfacePoint {
     uint medium_shift; ///< Added to the media of the shape (InstanceRecord).
 };
 
-// Three hierarchies, each walked by a loop of its own: a CPU driver executes all that stands in a
-// loop for every lane, taken or not, so a loop should hold one kind of work, and test its condition
-// at the end.
+// Three hierarchies, each walked by a loop of its own. A CPU driver executes all that stands in a
+// loop for every lane, taken or not, and stores to an array under a condition lane by lane: so a
+// walk is straight-line code, a few steps down and then one primitive, and leaves are used up by
+// counting in their words.
 //
-// A walk alternates between two inner loops: down to a leaf, then through its primitives. Nodes
-// name both children with their boxes; the nearer one is next, the other waits on the stack.
+// Nodes name both children with their boxes; the nearer one is next, the other waits on the stack.
 
-struct Stack {
-    uint nodes[BVH_DEPTH_MAX];
-    int size;
-};
+// Not a struct that functions pass on: drivers would copy it each time.
+uint stack_nodes[2u * BVH_DEPTH_MAX + 1u]; // of both levels, and one that no one reads
+int stack_size = 0;
 
-uint pop(inout Stack stack) {
-    return stack.size > 0 ? stack.nodes[--stack.size] : NONE;
+bool is_leaf(uint node) {
+    return (node & LEAF) != 0u && node != NONE;
 }
 
-/// From a node to the nearest leaf below it that the ray may hit, or NONE.
-uint descend(Ray ray, float t_max, uint node, inout Stack stack) {
+/// `node` itself, or if `done` what waits on the stack above `base`; NONE if nothing does.
+uint pop_if(bool done, uint node, int base) {
+    if ((primitives & PRIMITIVE_TREES) == 0u) return done ? NONE : node;
+    const bool is_empty = stack_size == base;
+    const uint top = stack_nodes[max(stack_size, 1) - 1];
+    stack_size -= done && !is_empty ? 1 : 0;
+    return !done ? node : is_empty ? NONE : top;
+}
+
+/// One step down from an inner node, to the nearer child that the ray may hit, or else to what
+/// waits on the stack. Leaves and NONE stay.
+uint step_down(Ray ray, float t_max, uint node, int base) {
+    const bool is_inner = (node & LEAF) == 0u;
+    const uint texel = push.nodes + (is_inner ? node : 0u) * NODE_TEXELS;
+    const uvec4 a = fetch_scene(texel), b = fetch_scene(texel + 1u);
+    const uvec4 c = fetch_scene(texel + 2u), d = fetch_scene(texel + 3u);
+    float near0, near1;
+    const bool hit0 = intersect_box(ray, floats(a), floats(b), t_max, near0);
+    const bool hit1 = intersect_box(ray, floats(c), floats(d), t_max, near1);
+    const bool second = hit1 && (!hit0 || near1 < near0);
+    stack_nodes[stack_size] = second ? a.w : b.w; // counts if both are hit
+    stack_size += is_inner && hit0 && hit1 ? 1 : 0;
+    return pop_if(is_inner && !hit0 && !hit1, is_inner ? second ? b.w : a.w : node, base);
+}
+
+/// Two steps: the balance with one primitive that is cheapest in meshes.
+uint descend(Ray ray, float t_max, uint node, int base) {
     if ((primitives & PRIMITIVE_TREES) == 0u) return node;
-    do {
-        if ((node & LEAF) == 0u) {
-            const uint texel = push.nodes + node * NODE_TEXELS;
-            const uvec4 a = fetch_scene(texel), b = fetch_scene(texel + 1u);
-            const uvec4 c = fetch_scene(texel + 2u), d = fetch_scene(texel + 3u);
-            float near0, near1;
-            const bool hit0 = intersect_box(ray, floats(a), floats(b), t_max, near0);
-            const bool hit1 = intersect_box(ray, floats(c), floats(d), t_max, near1);
-            const bool second = hit1 && (!hit0 || near1 < near0);
-            if (hit0 && hit1) stack.nodes[stack.size++] = second ? a.w : b.w;
-            node = second ? b.w : a.w;
-            if (!hit0 && !hit1) node = pop(stack);
-        }
-    } while ((node & LEAF) == 0u);
-    return node;
+    return step_down(ray, t_max, step_down(ray, t_max, node, base), base);
 }
 
-/// The primitives of a leaf: first <= i < end; none for NONE.
-void leaf_range(uint leaf, out uint first, out uint end) {
-    first = leaf & LEAF_FIRST_MASK;
-    end = leaf == NONE ? first : first + ((leaf & ~LEAF) >> LEAF_COUNT_SHIFT) + 1u;
-}
-
-/// What to walk after a leaf.
-uint next_node(inout Stack stack, bool any, Hit hit) {
-    if ((primitives & PRIMITIVE_TREES) == 0u || (any && hit.primitive != NONE)) return NONE;
-    return pop(stack);
+/// What to walk after the first primitive of a leaf: the rest of it, or what waits on the stack;
+/// nothing more if `done`. Whatever is no leaf stays.
+uint after_primitive(uint node, bool done, int base) {
+    const bool is_last = (node & ~LEAF) >> LEAF_COUNT_SHIFT == 0u;
+    const uint rest = is_leaf(node) && !is_last ? node - (1u << LEAF_COUNT_SHIFT) + 1u : node;
+    return done ? NONE : pop_if(is_leaf(node) && is_last, rest, base);
 }
 
 /// A ray towards a point of the primitive `target` at t_max does not hit that primitive there.
@@ -74,26 +80,31 @@ bool is_target(uint primitive, uint target, float t, float t_max) {
     return (lights & LIGHTS_AREA) != 0u && primitive == target && t > 0.999 * t_max;
 }
 
+/// Takes the primitive for the hit if it is one.
+void take_hit(bool is_hit, float t, uint primitive, uint instance, inout Hit hit) {
+    hit.t = is_hit ? t : hit.t;
+    hit.primitive = is_hit ? primitive : hit.primitive;
+    hit.instance = is_hit ? instance : hit.instance;
+}
+
 void walk_triangles(Ray ray, uint root, uint instance, float t_max, bool any, uint target,
                     inout Hit hit) {
-    Stack stack;
-    stack.size = 0;
+    const int base = stack_size;
     uint node = root;
     do {
-        node = descend(ray, hit.t, node, stack);
-        uint i, end;
-        leaf_range(node, i, end);
-        do {
-            const uint texel = push.primitives + i * PRIMITIVE_TEXELS;
-            const vec4 plane = uintBitsToFloat(fetch_scene(texel + 3u));
-            float t;
-            if (intersect_triangle(ray, floats(fetch_scene(texel)), floats(fetch_scene(texel + 1u)),
-                                   floats(fetch_scene(texel + 2u)), plane.xyz, plane.w, hit.t, t) &&
-                i < end && !is_target(i, target, t, t_max))
-                hit = Hit(t, i, instance);
-        } while (++i < end);
-        node = next_node(stack, any, hit);
+        node = descend(ray, hit.t, node, base);
+        const uint i = is_leaf(node) ? node & LEAF_FIRST_MASK : 0u;
+        const uint texel = push.primitives + i * PRIMITIVE_TEXELS;
+        const vec4 plane = uintBitsToFloat(fetch_scene(texel + 3u));
+        float t;
+        const bool is_hit =
+            intersect_triangle(ray, floats(fetch_scene(texel)), floats(fetch_scene(texel + 1u)),
+                               floats(fetch_scene(texel + 2u)), plane.xyz, plane.w, hit.t, t) &&
+            is_leaf(node) && !is_target(i, target, t, t_max);
+        take_hit(is_hit, t, i, instance, hit);
+        node = after_primitive(node, any && is_hit, base);
     } while (node != NONE);
+    stack_size = base;
 }
 
 bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t) {
@@ -113,30 +124,27 @@ bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t)
 /// Patches, quadrics and boxes.
 void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint target,
                  inout Hit hit) {
-    Stack stack;
-    stack.size = 0;
+    const int base = stack_size;
     uint node = root;
     do {
-        node = descend(ray, hit.t, node, stack);
-        uint i, end;
-        leaf_range(node, i, end);
-        do {
-            const PrimitiveRecord p = load_primitive(i);
-            const uint kind = p.kind_and_shape >> KIND_SHIFT;
-            float t = INFINITY;
-            bool is_hit = false;
-            vec2 uv;
-            if ((primitives & PRIMITIVE_PATCHES) != 0u && kind == KIND_PATCH)
-                is_hit = intersect_patch(ray, p.a, p.b, p.c, p.normal, hit.t, t, uv);
-            if ((primitives & PRIMITIVE_QUADRICS) != 0u &&
-                (kind == KIND_SPHERE || kind == KIND_DISK))
-                is_hit = intersect_quadric(ray, kind, p.extra, hit.t, t);
-            if ((primitives & PRIMITIVE_BOXES) != 0u && kind == KIND_BOX)
-                is_hit = intersect_box_surface(ray, p.a, p.b, hit.t, t);
-            if (is_hit && i < end && !is_target(i, target, t, t_max)) hit = Hit(t, i, instance);
-        } while (++i < end);
-        node = next_node(stack, any, hit);
+        node = descend(ray, hit.t, node, base);
+        const uint i = is_leaf(node) ? node & LEAF_FIRST_MASK : 0u;
+        const PrimitiveRecord p = load_primitive(i);
+        const uint kind = p.kind_and_shape >> KIND_SHIFT;
+        float t = INFINITY;
+        bool is_hit = false;
+        vec2 uv;
+        if ((primitives & PRIMITIVE_PATCHES) != 0u && kind == KIND_PATCH)
+            is_hit = intersect_patch(ray, p.a, p.b, p.c, p.normal, hit.t, t, uv);
+        if ((primitives & PRIMITIVE_QUADRICS) != 0u && (kind == KIND_SPHERE || kind == KIND_DISK))
+            is_hit = intersect_quadric(ray, kind, p.extra, hit.t, t);
+        if ((primitives & PRIMITIVE_BOXES) != 0u && kind == KIND_BOX)
+            is_hit = intersect_box_surface(ray, p.a, p.b, hit.t, t);
+        is_hit = is_hit && is_leaf(node) && !is_target(i, target, t, t_max);
+        take_hit(is_hit, t, i, instance, hit);
+        node = after_primitive(node, any && is_hit, base);
     } while (node != NONE);
+    stack_size = base;
 }
 
 void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance, float t_max,
@@ -151,11 +159,12 @@ void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance
 
 /// Each instance is alone in its leaf; its hierarchies are walked in its own space.
 void walk_instances(Ray ray, float t_max, bool any, inout Hit hit) {
-    Stack stack;
-    stack.size = 0;
+    const int base = stack_size;
     uint node = any && hit.primitive != NONE ? NONE : push.instance_root;
     do {
-        node = descend(ray, hit.t, node, stack);
+        do { // all the way: what follows is costly
+            node = descend(ray, hit.t, node, base);
+        } while ((node & LEAF) == 0u);
         if (node != NONE) {
             const uint texel = push.primitives + (node & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
             const uint index = fetch_scene(texel + 2u).w;
@@ -165,9 +174,10 @@ void walk_instances(Ray ray, float t_max, bool any, inout Hit hit) {
             const Ray inner = make_ray(transform_point(object_from_world, ray.origin),
                                        transform_vector(object_from_world, ray.direction));
             walk_primitives(inner, roots.x, roots.y, index, t_max, any, NONE, hit);
-            node = next_node(stack, any, hit);
+            node = after_primitive(node, any && hit.primitive != NONE, base);
         }
     } while (node != NONE);
+    stack_size = base;
 }
 
 /// The nearest hit within (0, t_max), or with `any` some hit. For `target` see is_target.
