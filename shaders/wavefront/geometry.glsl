@@ -157,26 +157,33 @@ void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance
     }
 }
 
-/// Each instance is alone in its leaf; its hierarchies are walked in its own space.
-void walk_instances(Ray ray, float t_max, bool any, inout Hit hit) {
+/// What the world holds itself, then the instances that the ray may hit. Each is alone in its leaf;
+/// its hierarchies are walked in its own space. (One call for both: drivers inline it.)
+void walk_instances(Ray ray, float t_max, bool any, uint target, inout Hit hit) {
     const int base = stack_size;
-    uint node = any && hit.primitive != NONE ? NONE : push.instance_root;
+    uint node = push.instance_root, instance = NONE;
+    uvec2 roots = uvec2(push.triangle_root, push.other_root);
+    Ray inner = ray;
+    bool goes_on;
     do {
+        walk_primitives(inner, roots.x, roots.y, instance, t_max, any,
+                        instance == NONE ? target : NONE, hit);
+        if (any && hit.primitive != NONE) node = NONE;
         do { // all the way: what follows is costly
             node = descend(ray, hit.t, node, base);
         } while ((node & LEAF) == 0u);
-        if (node != NONE) {
+        goes_on = node != NONE;
+        if (goes_on) {
             const uint texel = push.primitives + (node & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
-            const uint index = fetch_scene(texel + 2u).w;
-            const uint record = push.instances + index * INSTANCE_TEXELS;
+            instance = fetch_scene(texel + 2u).w;
+            const uint record = push.instances + instance * INSTANCE_TEXELS;
             const AffineRecord object_from_world = load_affine(record);
-            const uvec4 roots = fetch_scene(record + 6u);
-            const Ray inner = make_ray(transform_point(object_from_world, ray.origin),
-                                       transform_vector(object_from_world, ray.direction));
-            walk_primitives(inner, roots.x, roots.y, index, t_max, any, NONE, hit);
-            node = after_primitive(node, any && hit.primitive != NONE, base);
+            roots = fetch_scene(record + 6u).xy;
+            inner = make_ray(transform_point(object_from_world, ray.origin),
+                             transform_vector(object_from_world, ray.direction));
+            node = after_primitive(node, false, base);
         }
-    } while (node != NONE);
+    } while (goes_on);
     stack_size = base;
 }
 
@@ -184,8 +191,10 @@ void walk_instances(Ray ray, float t_max, bool any, inout Hit hit) {
 Hit trace(vec3 origin, vec3 direction, float t_max, bool any, uint target) {
     Hit hit = Hit(t_max, NONE, NONE);
     const Ray ray = make_ray(origin, direction);
-    walk_primitives(ray, push.triangle_root, push.other_root, NONE, t_max, any, target, hit);
-    if ((primitives & PRIMITIVE_INSTANCES) != 0u) walk_instances(ray, t_max, any, hit);
+    if ((primitives & PRIMITIVE_INSTANCES) != 0u)
+        walk_instances(ray, t_max, any, target, hit);
+    else
+        walk_primitives(ray, push.triangle_root, push.other_root, NONE, t_max, any, target, hit);
     if (hit.primitive == NONE) hit.t = INFINITY;
     return hit;
 }

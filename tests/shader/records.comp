@@ -124,12 +124,10 @@ void fill_control() {
 }
 
 /// From node 1, with a ray along +z from the point at push.media + i.
-void step_down(uint i) {
+void walk_node(uint i) {
     const Ray ray = make_ray(input_texel(push.media + i).xyz, vec3(0, 0, 1));
-    Stack stack;
-    stack.size = 0;
-    const uint leaf = descend(ray, INFINITY, 1u, stack);
-    emit(i, uvec4(leaf, pop(stack), 0u, 0u));
+    const uint leaf = step_down(ray, INFINITY, 1u, 0);
+    emit(i, uvec4(leaf, pop_if(true, leaf, 0), 0u, 0u));
 }
 
 void main() {
@@ -144,6 +142,6 @@ void main() {
     } else if (wanted() == 2u) {
         fill_control();
     } else {
-        step_down(local_index());
+        walk_node(local_index());
     }
 }
