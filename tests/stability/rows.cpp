@@ -158,7 +158,8 @@ std::vector<Case> absorption() {
 std::vector<Case> grids() {
     const glm::ivec3 cube{11, 11, 9}; // its faces are beyond the picture
     return {
-        // 7e4 null collisions of weight 1 - 1e-6 a path; rounded to a float, that weight alone would
+        // 7e4 null collisions of weight 1 - 1e-6 a path; rounded to a float, that weight alone
+        // would
         // leave 1e-4 too little.
         {"hot voxel", hot_voxel(), 1, Rgb(1), 5e-5},
         {"grid of zeros", in_voxel_planes(zero, 1e6, cube), 1, Rgb(1)},
