@@ -320,19 +320,20 @@ TYNDALL_CONSTANT uint PATH_SHADOW =
     10u; // 3: origin | medium; direction | distance; contribution | target
 TYNDALL_CONSTANT uint PATH_GROUPS = 13u;
 
-// Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight, and the sum of
-// squared residuals of batches (Welford), from which the variance of the mean follows.
+// Film, FILM_TEXELS a pixel: compensated sum of weight * radiance and weight; sums over the batches
+// (Welford), from which the variance of the mean follows, and the error (stats/error_estimate.h).
 TYNDALL_CONSTANT uint FILM_SUM = 0u;          // rgb, weight
 TYNDALL_CONSTANT uint FILM_COMPENSATION = 1u; // rgb, weight
-TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u;     // rgb, unused
-TYNDALL_CONSTANT uint FILM_TEXELS = 3u;
+TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u;     // sum c^2 of rgb | W
+TYNDALL_CONSTANT uint FILM_PAIR = 3u;         // residual of the last batch, rgb | G
+TYNDALL_CONSTANT uint FILM_TEXELS = 4u;
 
 // Behind the pixels of the film: ERROR_TEXELS for each invocation of update_film, with its part of
 // the sums behind the stated error (stats/error_estimate.h). Norms are roots of sums of squares:
 // squares of squared radiance would overflow.
-TYNDALL_CONSTANT uint ERROR_VARIANCES = 0u;   // sum m c^2 of rgb | norm of D
-TYNDALL_CONSTANT uint ERROR_COVARIANCES = 1u; // sum m c c' of rg, rb, gb | unused
-TYNDALL_CONSTANT uint ERROR_PIXELS = 2u; // sum |mean|^2, norm of R, norm of |mean| sqrt(R) | unused
+TYNDALL_CONSTANT uint ERROR_VARIANCES = 0u;   // sum w c^2 of rgb | norm of D
+TYNDALL_CONSTANT uint ERROR_COVARIANCES = 1u; // sum w c c' of rg, rb, gb | norm of g
+TYNDALL_CONSTANT uint ERROR_PIXELS = 2u;      // sum |mean|^2, norms of |mean| sqrt(W), W, G
 TYNDALL_CONSTANT uint ERROR_TEXELS = 3u;
 
 /// Invocations of update_film, each of which folds every fold_lanes-th pixel.

@@ -23,6 +23,19 @@ TYNDALL_SHARED_INLINE uint batch_first_sample(uint batch) {
     return (4u << BATCH_LOG2_LIMIT) + ((batch - whole) << BATCH_LOG2_LIMIT);
 }
 
+/// Weight of the contrast of a batch of which so many samples are rendered: 1, and threefold from
+/// each size of batches to the next; less for a last batch that is cut. Why, tells
+/// stats/error_estimate.h.
+TYNDALL_SHARED_INLINE float contrast_weight(uint batch, float count) {
+    const float before = float(batch_first_sample(batch));
+    const float whole = float(batch_first_sample(batch + 1u)) - before;
+    float weight = 1.0f;
+    for (float size = 1.0f; size < whole; size *= 2.0f)
+        weight *= 3.0f;
+    if (count < whole) weight *= count * (before - whole) / (whole * (before - count));
+    return weight;
+}
+
 TYNDALL_SHARED_END
 
 #endif

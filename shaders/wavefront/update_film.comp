@@ -35,67 +35,96 @@ struct FilmPixel {
     vec4 sum;
     vec4 compensation;
     vec4 residual;
+    vec4 pair;
 };
 
 /// Sums over contrasts (ERROR_*).
 struct BatchErrors {
     vec4 variances;
-    vec3 covariances;
+    vec4 covariances;
 };
+
+/// First sample of a batch, as far as they are rendered.
+uint rendered_first_sample(uint batch) {
+    return clamp(batch_first_sample(batch), push.first_sample, push.end_sample);
+}
 
 /// Adds a batch to the pixel, and its contrast to the errors.
 void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
-    const uint first = batch_first_sample(push.first_batch + batch);
-    const uint end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));
-    const float before = float(first - min(first, push.first_sample));
-    const float count = float(end - max(first, push.first_sample));
+    const uint first = rendered_first_sample(batch);
+    const float before = float(first - push.first_sample);
+    const float count = float(rendered_first_sample(batch + 1u) - first);
     const vec4 all = film.sum + film.compensation;
+    vec3 d = vec3(0);
     // Of a filter with negative parts, the weights of a few samples can cancel: there is no mean
     // yet.
     if (before > 0.0 && all.w >= 0.5 * before) {
         // Welford's update by a batch of `count` samples after `before` samples, with the residual
         // of the ratio estimator sum(w L) / sum(w): for positive filters it is Welford's exactly.
-        const vec3 d = value.xyz - all.xyz * (value.w / all.w);
+        d = value.xyz - all.xyz * (value.w / all.w);
         const float scale = before / (count * (before + count));
+        const float weight = contrast_weight(batch, count);
         const vec3 squares = d * d * scale;
-        film.residual.xyz += squares;
-        errors.variances = vec4(errors.variances.xyz + count * squares,
-                                hypotenuse(errors.variances.w, squares.x + squares.y + squares.z));
-        errors.covariances += count * scale * (d.xxy * d.yzz);
+        const float square = squares.x + squares.y + squares.z;
+        film.residual += vec4(squares, weight * square);
+        errors.variances =
+            vec4(errors.variances.xyz + weight * squares, hypotenuse(errors.variances.w, square));
+        errors.covariances.xyz += weight * scale * (d.xxy * d.yzz);
+        if ((batch & 1u) == 1u && float(first - rendered_first_sample(batch - 1u)) == count) {
+            // The residual of the batch before, about the mean that this one has.
+            const vec3 other = film.pair.xyz * ((before - count) / before);
+            const float pair = dot(d - other, d - other) / (2.0 * count);
+            film.pair.w += pair;
+            errors.covariances.w = hypotenuse(errors.covariances.w, pair);
+        }
     }
+    film.pair.xyz = d;
     if (count == 1.0) count_sample(value);
     add_compensated(film.sum, film.compensation, value);
+}
+
+/// Loads a pixel.
+FilmPixel load_pixel(uint at) {
+    return FilmPixel(load_film(at + FILM_SUM), load_film(at + FILM_COMPENSATION),
+                     load_film(at + FILM_RESIDUAL), load_film(at + FILM_PAIR));
+}
+
+void store_pixel(uint at, FilmPixel film) {
+    store_film(at + FILM_SUM, film.sum);
+    store_film(at + FILM_COMPENSATION, film.compensation);
+    store_film(at + FILM_RESIDUAL, film.residual);
+    store_film(at + FILM_PAIR, film.pair);
 }
 
 void main() {
     const uint lanes = fold_lanes(push.pixel_count);
     const uint lane = invocation();
     if (lane >= lanes) return;
-    BatchErrors batch_errors = BatchErrors(vec4(0), vec3(0));
-    vec3 pixel_errors = vec3(0);
+    BatchErrors batch_errors = BatchErrors(vec4(0), vec4(0));
+    vec4 pixel_errors = vec4(0);
     for (uint pixel = lane; pixel < push.pixel_count; pixel += lanes) {
         const uint at = pixel * FILM_TEXELS;
-        FilmPixel film = FilmPixel(load_film(at + FILM_SUM), load_film(at + FILM_COMPENSATION),
-                                   load_film(at + FILM_RESIDUAL));
+        FilmPixel film = load_pixel(at);
         for (uint i = 0u; i < control.fold_count; ++i) {
             const uint batch = control.folded_batches + i;
-            fold(batch, load_batch((batch % push.window) * push.pixel_count + pixel), film,
-                 batch_errors);
+            fold(push.first_batch + batch,
+                 load_batch((batch % push.window) * push.pixel_count + pixel), film, batch_errors);
         }
-        store_film(at + FILM_SUM, film.sum);
-        store_film(at + FILM_COMPENSATION, film.compensation);
-        store_film(at + FILM_RESIDUAL, film.residual);
+        store_pixel(at, film);
         if (film.sum.w == 0.0) continue;
         const vec3 mean = film.sum.xyz / film.sum.w;
-        const float residual = film.residual.x + film.residual.y + film.residual.z;
-        pixel_errors = vec3(pixel_errors.x + dot(mean, mean), hypotenuse(pixel_errors.y, residual),
-                            hypotenuse(pixel_errors.z, length(mean) * sqrt(residual)));
+        const float weighted = film.residual.w;
+        pixel_errors =
+            vec4(pixel_errors.x + dot(mean, mean),
+                 hypotenuse(pixel_errors.y, length(mean) * sqrt(weighted)),
+                 hypotenuse(pixel_errors.z, weighted), hypotenuse(pixel_errors.w, film.pair.w));
     }
     const uint at = push.pixel_count * FILM_TEXELS + lane * ERROR_TEXELS;
     const vec4 variances = load_film(at + ERROR_VARIANCES);
+    const vec4 covariances = load_film(at + ERROR_COVARIANCES);
     store_film(at + ERROR_VARIANCES, vec4(variances.xyz + batch_errors.variances.xyz,
                                           hypotenuse(variances.w, batch_errors.variances.w)));
-    store_film(at + ERROR_COVARIANCES,
-               load_film(at + ERROR_COVARIANCES) + vec4(batch_errors.covariances, 0.0));
-    store_film(at + ERROR_PIXELS, vec4(pixel_errors, 0.0));
+    store_film(at + ERROR_COVARIANCES, vec4(covariances.xyz + batch_errors.covariances.xyz,
+                                            hypotenuse(covariances.w, batch_errors.covariances.w)));
+    store_film(at + ERROR_PIXELS, pixel_errors);
 }

@@ -125,6 +125,7 @@ std::uint32_t ReferenceEngine::render(std::uint32_t first_sample, std::uint32_t 
         progress.is_look = batch + 1 == look;
         if (progress.is_look) {
             progress.error = film_.error();
+            progress.has_heavy_tail = stats::is_heavy_tail(tail_share());
             look = batches.next_look(look);
         }
         if (!go_on(0)) break;

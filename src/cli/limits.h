@@ -44,14 +44,18 @@ struct Pace {
     }
 };
 
-/// Foresees the end from a look with an error: errors fall as 1 / sqrt(samples).
+/// Foresees the end from a look: errors fall as 1 / sqrt(samples). None as long as it is not likely
+/// to come true within a quarter.
 ///
 /// @param before  seconds from the beginning of the program to that of the rendering
-Prediction foresee_end(const Limits& limits, const Progress& progress, const Pace& pace,
-                       double before);
+std::optional<Prediction> foresee_end(const Limits& limits, const Progress& progress,
+                                      const Pace& pace, double before);
 
 /// Samples per pixel at the look that will meet the target: the upper end of the interval falls as
-/// 1 / sqrt(samples).
-double samples_to_target(const Progress& progress, double target_error);
+/// 1 / sqrt(samples). None unless this comes true within a quarter nine times in ten, by the noise
+/// of the present error and by how far looks are apart; none where tails are heavy.
+std::optional<double> samples_to_target(const Progress& progress, double target_error);
+/// Samples per pixel that halve the present error. None as above.
+std::optional<double> samples_to_half(const Progress& progress);
 
 } // namespace tyndall::cli

@@ -35,7 +35,8 @@ std::string format_percent(double fraction) {
 
 std::string error_text(const stats::ErrorEstimate& error) {
     return fmt::format("{} % error ({}-{})", format_percent(error.relative_rmse),
-                       format_percent(error.low), format_percent(error.high));
+                       format_percent(error.low),
+                       std::isfinite(error.high) ? format_percent(error.high) : "?");
 }
 
 std::string progress_text(const ProgressFigures& f) {

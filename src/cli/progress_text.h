@@ -4,6 +4,7 @@
 #include "stats/error_estimate.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -14,8 +15,9 @@ struct ProgressFigures {
     std::optional<stats::ErrorEstimate> error;
     double paths_per_second = 0;
     std::optional<double> target_error; ///< None: half the present error is told instead.
-    double target_seconds = 0;          ///< Until then; told if there is an error.
-    double elapsed = 0, left = 0;       ///< Seconds; left is infinite if nothing tells the end.
+    /// Until then; told if there is an error. Infinite if nobody can tell.
+    double target_seconds = std::numeric_limits<double>::infinity();
+    double elapsed = 0, left = 0; ///< Seconds; left is infinite if nothing tells the end.
 };
 
 /// "312 spp  0.84 % error (0.80-0.89)  4.1 Mpaths/s  0.5 % in 38 s [41%, 0:26, 0:38 left]"

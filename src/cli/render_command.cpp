@@ -132,12 +132,11 @@ std::string Job::progress_text(const Progress& progress) const {
         figures.left = now.seconds_to(limits_.end_samples);
     if (limits_.time)
         figures.left = std::min(figures.left, std::max(0.0, *limits_.time - seconds_since(start_)));
-    if (progress.error) {
-        figures.target_seconds =
-            now.seconds_to(limits_.target_error ? samples_to_target(progress, *limits_.target_error)
-                                                : 4.0 * progress.samples);
-        if (limits_.target_error) figures.left = std::min(figures.left, figures.target_seconds);
-    }
+    const std::optional<double> goal = limits_.target_error
+                                           ? samples_to_target(progress, *limits_.target_error)
+                                           : samples_to_half(progress);
+    if (goal) figures.target_seconds = now.seconds_to(*goal);
+    if (limits_.target_error) figures.left = std::min(figures.left, figures.target_seconds);
     return cli::progress_text(figures);
 }
 
@@ -155,12 +154,12 @@ bool Job::is_time_over() {
 void Job::foresee(const Progress& progress) {
     constexpr double seconds_for_pace = 0.5;
     const Pace now = pace(progress);
-    if (report_.prediction || !progress.is_look || !progress.error ||
-        progress.batches < Limits::kFewestBatches || now.seconds < seconds_for_pace)
+    if (report_.prediction || !progress.is_look || progress.batches < Limits::kFewestBatches ||
+        now.seconds < seconds_for_pace)
         return;
     const double before = std::chrono::duration<double>(render_start_ - start_).count();
-    const Prediction end = foresee_end(limits_, progress, now, before);
-    if (progress.samples >= 0.1 * end.samples) report_.prediction = end;
+    const std::optional<Prediction> end = foresee_end(limits_, progress, now, before);
+    if (end && progress.samples >= 0.1 * end->samples) report_.prediction = end;
 }
 
 bool Job::keep_going(const Progress& progress) {

@@ -4,6 +4,7 @@
 #include "cli/progress_text.h"
 #include "core/atomic_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -63,7 +64,11 @@ json health_json(const Engine& engine) {
 }
 
 bool has_heavy_tail(const RenderReport& report) {
-    return report.tail_share && *report.tail_share > stats::kHeavyTailShare;
+    return stats::is_heavy_tail(report.tail_share);
+}
+
+bool is_black(const Image& film) {
+    return std::all_of(film.pixels.begin(), film.pixels.end(), [](float x) { return x == 0; });
 }
 
 json error_json(const RenderReport& report) {
@@ -75,7 +80,7 @@ json error_json(const RenderReport& report) {
     if (report.tail_share) error["tail_share"] = *report.tail_share;
     if (report.error) {
         error["relative_rmse"] = report.error->relative_rmse;
-        error["interval_95"] = {report.error->low, report.error->high};
+        error["interval_95"] = {report.error->low, report.error->high}; // null if infinite
         // Errors fall as 1 / sqrt(time): four times as long in all.
         error["half_in_seconds"] = 3 * report.seconds.render;
     }
@@ -175,6 +180,7 @@ std::string closing_text(const Scene& scene, const RenderReport& report) {
         path_count(scene, report) * 1e-6 / std::max(report.seconds.render, 1e-9));
     if (report.error) text += ", " + error_text(*report.error);
     text += '\n';
+    if (is_black(report.film)) text += "the image is black: no path has found light\n";
     if (has_heavy_tail(report))
         text +=
             fmt::format("heavy tails: the top 0.1 % of samples carry {:.0f} % of the image; the "

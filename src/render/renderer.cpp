@@ -135,7 +135,7 @@ void Renderer::take_in(const Control& control) {
 /// Takes in the error of the film, which must hold folded_batches_.
 void Renderer::measure_error() {
     for (; contrasted_batches_ < folded_batches_; ++contrasted_batches_)
-        contrasts_.add(batches_.samples_of(contrasted_batches_));
+        contrasts_.add(contrasted_batches_, batches_.samples_of(contrasted_batches_));
     error_ =
         stats::estimate_error(contrasts_, wavefront_.read_error_sums(), tables_.push.pixel_count);
 }
@@ -161,7 +161,8 @@ bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
                             .paths = samples_begun(batch_count) * tables_.push.pixel_count,
                             .error = error_,
                             .is_look = is_look,
-                            .batches = folded_batches_ - batches_.first()};
+                            .batches = folded_batches_ - batches_.first(),
+                            .has_heavy_tail = stats::is_heavy_tail(tail_share())};
     return keep_going(progress) || samples() == 0;
 }
 

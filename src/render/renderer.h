@@ -22,7 +22,8 @@ struct Progress {
     /// Whether this is a look: the film has `batches` batches, and waits. Looks come at the same
     /// batches in every run, so that who stops at one by `error` gets the same film.
     bool is_look = false;
-    std::uint32_t batches = 0; ///< In the film.
+    std::uint32_t batches = 0;   ///< In the film.
+    bool has_heavy_tail = false; ///< Of the samples (stats::kHeavyTailShare).
 };
 
 /// Called every now and then and at each look; false asks to stop, which happens once the film has

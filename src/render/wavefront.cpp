@@ -175,13 +175,17 @@ stats::ErrorSums Wavefront::read_error_sums() const {
                   std::as_writable_bytes(std::span(texels)));
     stats::ErrorSums sums;
     for (std::size_t i = 0; i < texels.size(); i += ERROR_TEXELS) {
-        const glm::dvec4 variances(texels[i + ERROR_VARIANCES]), pixels(texels[i + ERROR_PIXELS]);
+        const glm::dvec4 variances(texels[i + ERROR_VARIANCES]);
+        const glm::dvec4 covariances(texels[i + ERROR_COVARIANCES]);
+        const glm::dvec4 pixels(texels[i + ERROR_PIXELS]);
         sums.variances += glm::dvec3(variances);
-        sums.covariances += glm::dvec3(texels[i + ERROR_COVARIANCES]);
+        sums.covariances += glm::dvec3(covariances);
         sums.squares += variances.w * variances.w;
+        sums.pair_squares += covariances.w * covariances.w;
         sums.mean_squares += pixels.x;
-        sums.residual_squares += pixels.y * pixels.y;
-        sums.mean_residuals += pixels.z * pixels.z;
+        sums.mean_residuals += pixels.y * pixels.y;
+        sums.weighted_squares += pixels.z * pixels.z;
+        sums.pair_residual_squares += pixels.w * pixels.w;
     }
     return sums;
 }

@@ -13,10 +13,11 @@ namespace tyndall::stats {
 class BatchFilm {
   public:
     /// Empty.
-    explicit BatchFilm(std::size_t pixel_count = 0) : sums_(pixel_count), residuals_(pixel_count) {}
+    explicit BatchFilm(std::size_t pixel_count = 0) : sums_(pixel_count), spreads_(pixel_count) {}
 
-    /// Adds a batch: for each pixel, over `samples` samples, the sum of filter weight * radiance
-    /// (xyz) and of filter weights (w).
+    /// Adds the next batch of the schedule (shared/schedule.h), the last of which may be cut: for
+    /// each pixel, over `samples` samples, the sum of filter weight * radiance (xyz) and of filter
+    /// weights (w).
     void fold(const std::vector<glm::dvec4>& batch, double samples);
 
     /// Samples per pixel folded.
@@ -31,8 +32,21 @@ class BatchFilm {
     const SampleHistogram& histogram() const { return histogram_; }
 
   private:
+    /// What the batches of a pixel tell of its noise (ErrorSums).
+    struct Spread {
+        glm::dvec3 residual{0}; ///< Sum of squared contrasts.
+        double weighted = 0;    ///< W
+        double pairs = 0;       ///< G
+        glm::dvec3 last{0};     ///< Of the last batch: sum - samples * mean before.
+    };
+
+    void add_contrast(Spread& spread, const glm::dvec3& d, double weight, double scale);
+    void add_pair(Spread& spread, const glm::dvec3& difference);
+    void count_sample(const glm::dvec4& value);
+
     std::vector<glm::dvec4> sums_;
-    std::vector<glm::dvec3> residuals_; ///< Sum of squared contrasts.
+    std::vector<Spread> spreads_;
+    std::uint32_t batches_ = 0;
     BatchContrasts contrasts_;
     ErrorSums error_sums_; ///< Those that grow with each batch.
     SampleHistogram histogram_{};

@@ -1,41 +1,20 @@
 #include "stats/error_estimate.h"
 
+#include "shared/schedule.h"
 #include "stats/distributions.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall::stats {
 namespace {
 
-/// Sums over the pixels of the squared variance per sample, and of the fourth cumulant.
-struct Moments {
-    double variance_square;
-    double cumulant;
-};
-
-/// Two sums, two unknowns: the squares of D_bp and the products of D_bp and D_cp have the
-/// expectations
-///
-///     count (1 + 2 correlation) v^2 + fourth k    and    count (count - 1) v^2 + shared k.
-///
-/// Solved, they are unbiased, but where tails are heavy mostly too small, because what is rare is
-/// in few pictures. Products alone (k = 0) are too large by the tails. The geometric mean of both
-/// gives intervals that cover as they should from normal to lognormal samples of sigma 2.5 and
-/// rare bright ones (stats/error_estimate_test.cpp).
-Moments compute_moments(const BatchContrasts& b, const ErrorSums& s, double variance,
-                        double correlation, double pixels) {
-    const double least = variance * variance / pixels; // if all pixels were alike
-    const double normal = 1 + 2 * correlation;         // E D^2 / v^2
-    const double pairs = b.count * (b.count - 1);
-    const double products = std::max(0.0, s.residual_squares - s.squares);
-    if (pairs == 0) return {std::max(s.squares, least), 0};
-    const double plain = std::max(products / pairs, least);
-    const double determinant = pairs * b.fourth - normal * b.count * b.shared;
-    if (determinant < 0.2 * pairs * b.fourth) return {plain, 0}; // two contrasts: all but dependent
-    const double solved = (products * b.fourth - s.squares * b.shared) / determinant;
-    const double cumulant = (s.squares * pairs - normal * b.count * products) / determinant;
-    return {std::sqrt(plain * std::max(solved, least)), std::max(cumulant, 0.0)};
+/// Sum over the pixels of the squared variance of a sample (tr(C)^2): products g_k g_l of disjoint
+/// pairs of batches have this expectation. With fewer than two pairs, as if samples were normal.
+double sum_squared_variances(const BatchContrasts& b, const ErrorSums& s, double correlation) {
+    if (b.pairs < 2) return s.squares / (b.count * (1 + 2 * correlation));
+    return (s.pair_residual_squares - s.pair_squares) / (b.pairs * (b.pairs - 1));
 }
 
 /// tr(C^2) / tr(C)^2 of the covariance of the channels: 1 if they vary together, 1/3 if each of the
@@ -47,35 +26,38 @@ double channel_correlation(const ErrorSums& s) {
 }
 
 /// Cube roots of the quantiles of F, of which numerator and denominator have relative variances 9 a
-/// and 9 b, at -t and +t standard deviations. None if there is no upper one.
+/// and 9 b, at -t and +t standard deviations. None if b is too large for that.
 struct Bounds {
-    double low, high;
+    double low, high; ///< high may be infinite.
 };
 std::optional<Bounds> paulson_bounds(double t, double a, double b) {
+    if (b >= 1) return std::nullopt;
     // ((1 - b) y - (1 - a))^2 = t^2 (a + b y^2)
     const double square = (1 - b) * (1 - b) - t * t * b;
-    if (b >= 1 || square <= 0) return std::nullopt;
     const double half = (1 - a) * (1 - b);
     const double constant = (1 - a) * (1 - a) - t * t * a;
     const double root = std::sqrt(std::max(0.0, half * half - square * constant));
-    return Bounds{std::max(0.0, (half - root) / square), (half + root) / square};
+    const double high =
+        square > 0 ? (half + root) / square : std::numeric_limits<double>::infinity();
+    // = (half - root) / square, without cancellation
+    return Bounds{std::max(0.0, constant / (half + root)), high};
 }
 
 } // namespace
 
-void BatchContrasts::add(double m) {
+double BatchContrasts::add(std::uint32_t batch, double m) {
     const double before = samples, all = before + m;
+    const bool is_pair = batch % 2 == 1 && m == last;
     samples = all;
-    if (before == 0) return;
-    const double q = (before * before * before + m * m * m) / (m * before * all * all);
-    const double r = m / (before * all); // with any earlier contrast
-    fourth += q;
-    shared += 2 * count * r;
-    weighted_fourth += m * m * q;
-    weighted_shared += 2 * weight * m * r;
+    last = m;
+    if (before == 0) return 0;
+    const double w = double{shared::contrast_weight(batch, static_cast<float>(m))};
+    fourth += (before * before * before + m * m * m) / (m * before * all * all);
     ++count;
-    weight += m;
-    weight_square += m * m;
+    pairs += is_pair ? 1 : 0;
+    weight += w;
+    weight_square += w * w;
+    return w;
 }
 
 std::optional<ErrorEstimate> estimate_error(const BatchContrasts& b, const ErrorSums& s,
@@ -85,29 +67,31 @@ std::optional<ErrorEstimate> estimate_error(const BatchContrasts& b, const Error
     const double variance = (s.variances.x + s.variances.y + s.variances.z) / b.weight;
     const double mean_variance = variance / b.samples;
     const double signal = s.mean_squares - mean_variance; // unbiased
+    if (variance == 0) return ErrorEstimate{};            // black ones, too
     if (!(signal > 0) || !std::isfinite(signal)) return std::nullopt;
-    if (variance == 0) return ErrorEstimate{};
     const double correlation = channel_correlation(s);
-    const Moments moments = compute_moments(b, s, variance, correlation, pixels);
     const double per_square = 1 / (variance * variance);
-    const double normal = 2 * correlation * moments.variance_square * per_square;
-    const double spread = b.weight_square / (b.weight * b.weight);
-    const double tail =
-        moments.cumulant * per_square *
-        ((b.weighted_fourth + b.weighted_shared) / (b.weight * b.weight) - 1 / b.samples);
-    const double total = normal + std::max(tail, 0.0) / (1 + spread);
-    // The sum of squared means has an error of its own, in which the variance is not yet.
+    const double variance_square =
+        std::max(per_square * sum_squared_variances(b, s, correlation), 1 / pixels); // all alike
+    // Relative variances: of c_0^2 without the squares that V shares, of V without and of these
+    // squares, of the signal.
+    const double normal = 2 * correlation * variance_square;
+    const double spread = normal * b.weight_square / (b.weight * b.weight);
+    const double fourth =
+        (s.squares * per_square - b.count * (variance_square + normal)) / (b.fourth * b.samples);
+    const double squares = std::max(fourth, 0.0);
     const double signal_variance =
-        4 * std::max(0.0, s.mean_residuals / b.count - moments.variance_square / b.samples) /
-        (b.samples * signal * signal);
-    const double degrees = b.count / (moments.variance_square * per_square);
-    const auto bounds = paulson_bounds(student_quantile(0.05, degrees), total / 9,
-                                       (total * spread + signal_variance) / 9);
+        4 * std::max(0.0, s.mean_residuals - s.weighted_squares / (b.weight * b.samples)) /
+        (b.weight * b.samples * signal * signal);
+    const double degrees = std::max(2 / (squares + spread), 1.0);
+    const auto bounds =
+        paulson_bounds(student_quantile(0.05, degrees), normal / 9, (spread + signal_variance) / 9);
     if (!bounds) return std::nullopt;
     const double error = std::sqrt(mean_variance / signal);
     const ErrorEstimate estimate{error, error * std::pow(bounds->low, 1.5),
-                                 error * std::pow(bounds->high, 1.5)};
-    if (!std::isfinite(estimate.high)) return std::nullopt;
+                                 error * std::pow(bounds->high, 1.5),
+                                 std::sqrt(squares + spread + signal_variance)};
+    if (!std::isfinite(estimate.low)) return std::nullopt;
     return estimate;
 }
 

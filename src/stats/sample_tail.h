@@ -21,5 +21,8 @@ std::optional<double> tail_share(const SampleHistogram& counts);
 /// too rare to have occurred, and intervals from those that have may be too narrow. Exponentially
 /// distributed samples have a share of 0.8 %.
 inline constexpr double kHeavyTailShare = 0.1;
+inline bool is_heavy_tail(const std::optional<double>& share) {
+    return share && *share > kHeavyTailShare;
+}
 
 } // namespace tyndall::stats

@@ -129,6 +129,10 @@ target_error() {
   grep -q '"stopped_by": "spp"' a.json || fail "not by samples"
   expect 0 render "$scenes/slab.pbrt" --size 8x8 --target-error 20% --device reference -o a.exr --stats a.json
   grep -q '"stopped_by": "target-error"' a.json || fail "the reference does not stop"
+  # A picture without any light has no error to wait for.
+  grep -v LightSource "$scenes/slab.pbrt" >dark.pbrt
+  expect 0 render dark.pbrt --size 16x16 --target-error 1% -o a.exr
+  says 'the image is black'
 }
 
 verify() {

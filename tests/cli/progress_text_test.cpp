@@ -71,20 +71,44 @@ TEST(Limits, TheFirstOfThemIsForeseen) {
     const Pace pace{.seconds = 2, .samples = 20, .samples_per_second = 10};
     const Progress now = look(16, 8, 0.4); // upper end 0.44
     // (0.44 / 0.1)^2 * 16 = 309.8 samples: the look with 320.
-    const Prediction target = foresee_end({.end_samples = 1000, .target_error = 0.1}, now, pace, 1);
+    const Prediction target =
+        foresee_end({.end_samples = 1000, .target_error = 0.1}, now, pace, 1).value();
     EXPECT_EQ(target.stopped_by, "target-error");
     EXPECT_EQ(target.samples, 320);
     EXPECT_DOUBLE_EQ(target.seconds, 32);
     EXPECT_NEAR(target.relative_rmse, 0.4 / std::sqrt(20.0), 1e-12);
-    const Prediction spp = foresee_end({.end_samples = 100, .target_error = 0.1}, now, pace, 1);
+    const Prediction spp =
+        foresee_end({.end_samples = 100, .target_error = 0.1}, now, pace, 1).value();
     EXPECT_EQ(spp.stopped_by, "spp");
     EXPECT_DOUBLE_EQ(spp.seconds, 10);
     // 15 seconds of the program, of which 1 was over before the rendering.
     const Prediction time =
-        foresee_end({.end_samples = 1000, .time = 15, .target_error = 0.1}, now, pace, 1);
+        foresee_end({.end_samples = 1000, .time = 15, .target_error = 0.1}, now, pace, 1).value();
     EXPECT_EQ(time.stopped_by, "time");
     EXPECT_DOUBLE_EQ(time.seconds, 14);
     EXPECT_DOUBLE_EQ(time.samples, 140);
+}
+
+/// Looks at 192, 256, 320 and 384 samples are as far apart as is allowed, or too far.
+TEST(Limits, WhatIsUncertainIsNotForeseen) {
+    Progress now = look(16, 8, 0.4);
+    const auto target_for = [&](double samples) { return 0.44 / std::sqrt(samples / 16); };
+    EXPECT_EQ(samples_to_target(now, target_for(225)), 256);
+    now.error->variation = 0.02;
+    EXPECT_EQ(samples_to_target(now, target_for(225)), 256);
+    EXPECT_EQ(samples_to_target(now, target_for(315)), 320);
+    EXPECT_FALSE(samples_to_target(now, target_for(195))); // 192 or 256?
+    now.error->variation = 0.13;
+    EXPECT_EQ(samples_to_half(now), 64);
+    now.error->variation = 0.14;
+    EXPECT_FALSE(samples_to_half(now));
+    EXPECT_FALSE(foresee_end({.end_samples = 100}, now, {.samples_per_second = 1}, 1));
+    now.error->variation = 0;
+    now.has_heavy_tail = true;
+    EXPECT_FALSE(samples_to_half(now));
+    now.has_heavy_tail = false;
+    now.error->high = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(samples_to_target(now, 0.1));
 }
 
 } // namespace

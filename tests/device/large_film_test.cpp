@@ -9,7 +9,7 @@ namespace {
 
 Scene large(Scene scene) {
     scene.camera.screen_window_given = scene.camera.kind == Camera::Kind::orthographic;
-    set_size(scene, 150, 150); // 67500 texels of film
+    set_size(scene, 150, 150); // 90000 texels of film
     return scene;
 }
 
