@@ -3,20 +3,22 @@
 #include "shared/schedule.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace tyndall {
 namespace {
 
 using shared::batch_first_sample;
 
-/// The batch that holds the sample.
+/// The batch that holds the sample: the inverse of batch_first_sample.
 std::uint32_t batch_of(std::uint32_t sample) {
-    std::uint32_t low = 0, high = sample + 1; // a batch has a sample at least
-    while (high - low > 1) {
-        const std::uint32_t middle = low + (high - low) / 2;
-        (batch_first_sample(middle) <= sample ? low : high) = middle;
-    }
-    return low;
+    using shared::BATCH_LOG2_LIMIT;
+    constexpr std::uint32_t first_whole = 4u << BATCH_LOG2_LIMIT;
+    if (sample < 4) return sample;
+    if (sample >= first_whole)
+        return 4 + 2 * BATCH_LOG2_LIMIT + ((sample - first_whole) >> BATCH_LOG2_LIMIT);
+    const auto octave = static_cast<std::uint32_t>(std::bit_width(sample)) - 3;
+    return 4 + 2 * octave + ((sample - (4u << octave)) >> (octave + 1));
 }
 
 } // namespace

@@ -3,8 +3,6 @@
 #include "core/error.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -28,23 +26,6 @@ auto timed(double& seconds, const Make& make) {
     auto result = make();
     seconds = seconds_since(start);
     return result;
-}
-
-/// Adds what the device has counted.
-void add_health(const Control& control, Health& health) {
-    for (int kind = 0; kind < shared::HEALTH_COUNT; ++kind) {
-        shared::Mishap& mishap = health.kinds[kind];
-        if (mishap.count == 0 && control.health[kind] > 0) {
-            mishap.x = control.health_pixel[kind] & 0xFFFF;
-            mishap.y = control.health_pixel[kind] >> 16;
-            mishap.sample = control.health_sample[kind];
-        }
-        mishap.count += control.health[kind];
-    }
-    const double ratio = std::bit_cast<float>(control.worst_majorant_ratio);
-    health.worst_majorant_ratio = std::max(health.worst_majorant_ratio, ratio);
-    health.lost_throughput +=
-        std::ldexp(control.lost_throughput_low, -16) + std::ldexp(control.lost_throughput_high, 16);
 }
 
 } // namespace
@@ -82,7 +63,7 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
     contrasts_ = {};
     error_.reset();
     histogram_ = {};
-    health_ = health_before_ = {};
+    health_ = {};
     stage_times_.clear();
     for (const std::string& name : wavefront_.stage_names())
         stage_times_.push_back({.name = name});
@@ -93,7 +74,7 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
     for (bool first_epoch = true; folded_batches_ < batches_.end(); first_epoch = false) {
         const std::uint32_t count = std::min(per_epoch, batches_.end() - folded_batches_);
         epoch_batch_ = folded_batches_;
-        health_before_ = health_;
+        health_.restart();
         wavefront_.begin_epoch(epoch_batch_, count, first_sample, end_sample, first_epoch);
         if (!run_epoch(count, keep_going)) break;
     }
@@ -125,8 +106,7 @@ void Renderer::land(Flight& flight) {
 void Renderer::take_in(const Control& control) {
     // The last round's update_film has folded fold_count batches on top of folded_batches.
     folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
-    health_ = health_before_;
-    add_health(control, health_);
+    health_.take_in(control);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
     if (epoch_batch_ == batches_.first())
         std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());

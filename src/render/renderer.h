@@ -3,6 +3,7 @@
 
 #include "image/image.h"
 #include "render/batch_range.h"
+#include "render/health_counts.h"
 #include "render/wavefront.h"
 #include "stats/sample_tail.h"
 
@@ -72,7 +73,7 @@ class Renderer {
     const Effects& effects() const { return effects_; }
     const Wavefront& wavefront() const { return wavefront_; }
     /// What went wrong so far.
-    const Health& health() const { return health_; }
+    const Health& health() const { return health_.health(); }
     const std::vector<StageTime>& stage_times() const { return stage_times_; }
     /// Seconds that packing the scene and building its hierarchy took, and compiling the stages.
     double build_seconds() const { return build_seconds_; }
@@ -101,8 +102,7 @@ class Renderer {
     std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
     std::uint32_t look_batch_ = 0;     ///< No more are folded before the next look.
     double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
-    Health health_;
-    Health health_before_; ///< Of earlier epochs.
+    HealthCounts health_;
     stats::BatchContrasts contrasts_;
     std::uint32_t contrasted_batches_ = 0; ///< End of the batches in contrasts_.
     std::optional<stats::ErrorEstimate> error_;
