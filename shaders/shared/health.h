@@ -31,9 +31,10 @@ TYNDALL_CONSTANT float LENGTH_ERROR_MAX = 1e-3f;     // | |direction|^2 - 1 |
 // of relative indices of refraction.
 TYNDALL_CONSTANT float WEIGHT_MAX = 1024.0f;
 
-// Interfaces that a shadow ray may cross. Its loop stands in one dispatch, which must end. For
-// paths, see Integrator::event_limit.
-TYNDALL_CONSTANT uint SHADOW_CROSSINGS_MAX = 16384u;
+// Interfaces that a shadow ray may cross. Its loop stands in one dispatch, which must end, and
+// after fewer steps than lavapipe allows (wavefront/volume.glsl). For paths, see
+// Integrator::event_limit.
+TYNDALL_CONSTANT uint SHADOW_CROSSINGS_MAX = 1024u;
 
 #ifdef __cplusplus
 /// As --stats and the attributes of EXR files call the kinds.

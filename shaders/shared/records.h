@@ -83,7 +83,7 @@ struct MarchRecord {
     uint pad1;
 };
 TYNDALL_CONSTANT uint MARCH_TEXEL = CAMERA_TEXELS;
-TYNDALL_CONSTANT uint MARCH_STEPS_MAX = 1048576u;
+TYNDALL_CONSTANT uint MARCH_STEPS_MAX = 4096u; // see wavefront/volume.glsl on loops
 
 /// The ball around all surfaces and lights (scene/lit_ball.h), after that.
 struct BallRecord {
@@ -314,7 +314,8 @@ TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in t
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
 TYNDALL_CONSTANT uint PATH_HIT = 8u; // distance, primitive, instance | distance before the segment
-// Tracking: how far it has come along the segment | unused. March: steps done | optical depth rgb.
+// Tracking: how far it has come along the segment | what is left of its flight | unused. March:
+// steps done | optical depth rgb.
 TYNDALL_CONSTANT uint PATH_TRACK = 9u;
 TYNDALL_CONSTANT uint PATH_SHADOW =
     10u; // 3: origin | medium; direction | distance; contribution | target

@@ -13,6 +13,13 @@ DispatchSize dispatch_size(uint invocations) {
     return DispatchSize(min(groups, 32768u), (groups + 32767u) / 32768u, 1u);
 }
 
+/// Batches that update_film may fold at once, by how often it may go round its loops (volume.glsl).
+uint most_folds() {
+    const uint lanes = fold_lanes(push.pixel_count);
+    const uint pixels = (push.pixel_count + lanes - 1u) / lanes;
+    return clamp(60000u / pixels, 2u, push.window + 1u) - 1u;
+}
+
 void main() {
     if (gl_GlobalInvocationID.x != 0u) return;
     for (uint queue = 0u; queue < QUEUE_COUNT; ++queue) {
@@ -23,8 +30,8 @@ void main() {
     uint folded = control.folded_batches + control.fold_count;
     control.folded_batches = folded;
     uint count = 0u;
-    const uint limit = min(push.batch_count, control.fold_limit);
-    while (folded + count < limit && count < push.window &&
+    const uint limit = min(push.batch_count, control.fold_limit), most = most_folds();
+    while (folded + count < limit && count < most &&
            control.finished[(folded + count) % push.window] == push.pixel_count) {
         control.finished[(folded + count) % push.window] = 0u;
         ++count;

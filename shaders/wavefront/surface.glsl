@@ -62,8 +62,9 @@ void shade_light(uint slot, Path p, SurfacePoint s, ShapeRecord shape, LightSamp
                  vec3 response, float pdf) {
     const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
     light.radiance *= p.throughput * (response * mis);
-    cast_shadow_ray(slot, leave_surface(s, light.direction),
-                    medium_beyond(shape, s, light.direction, p.medium), light);
+    const vec3 origin = leave_surface(s, light.direction);
+    light.distance -= dot(origin - s.position, light.direction); // see trace_shadow
+    cast_shadow_ray(slot, origin, medium_beyond(shape, s, light.direction, p.medium), light);
 }
 
 /// Lets the path leave along a direction that was drawn with density `pdf`; 0: that lights could

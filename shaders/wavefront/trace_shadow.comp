@@ -39,8 +39,9 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
         if (is_free || is_black(result)) return result;
         const SurfacePoint s = surface_point(origin, direction, hit);
         medium = medium_beyond(shape, s, direction, medium);
-        origin = leave_surface(s, direction);
-        distance -= hit.t;
+        const vec3 beyond = leave_surface(s, direction);
+        distance -= dot(beyond - origin, direction); // not hit.t: what is close behind the light
+        origin = beyond;                             // would be in the way
     }
     note_mishap(HEALTH_EVENT_LIMIT, true);
     return vec3(0);

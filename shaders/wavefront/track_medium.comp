@@ -50,7 +50,12 @@ void main() {
     const Medium medium = load_medium(p.medium);
     float t;
     const Field f = begin_field(medium, p.origin, p.direction, uintBitsToFloat(hit.x), t);
-    if (p.status == STATUS_TRACKING) t = uintBitsToFloat(load_path(PATH_TRACK, slot).x);
+    float tau = 0.0; // what is left of a flight, if any
+    if (p.status == STATUS_TRACKING) {
+        const vec2 track = uintBitsToFloat(load_path(PATH_TRACK, slot).xy);
+        t = track.x;
+        tau = track.y;
+    }
 
     bool goes_on = t < f.t_end;
     uint end = END_PASSED;
@@ -59,8 +64,11 @@ void main() {
     do {
         const uvec4 words = draw(p, BLOCK_PATH);
         float bound;
-        goes_on = goes_on && next_collision(f, exponential_variate(words.x), t, bound);
-        if (goes_on) {
+        if (tau == 0.0) tau = exponential_variate(words.x);
+        const bool collides = goes_on && next_collision(f, tau, t, bound);
+        goes_on = goes_on && t < f.t_end;
+        if (collides) {
+            tau = 0.0;
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
             const vec3 absorbed = tap.sigma_a / bound, scattered = tap.sigma_s / bound;
             const vec3 extinction = absorbed + scattered;
@@ -85,13 +93,13 @@ void main() {
             goes_on = end == END_PASSED && t < f.t_end && !is_black(p.throughput) &&
                       p.event < event_limit;
         }
-    } while (goes_on && ++steps < push.run_length);
+    } while (goes_on && ++steps < push.run_length && steps_walked < STEPS_MAX);
 
     const bool is_real = end == END_SCATTERED;
     p.status = goes_on                                         ? STATUS_TRACKING
                : end == END_ABSORBED || is_black(p.throughput) ? STATUS_ENDED
                                                                : STATUS_RAY;
-    if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(t), 0u, 0u, 0u));
+    if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(vec2(t, tau)), 0u, 0u));
     if (is_real) store_path(PATH_HIT, slot, uvec4(floatBitsToUint(t), COLLISION, NONE, hit.w));
     if (p.status == STATUS_ENDED) log_path(EVENT_ABSORBED, p);
     report_majorant_ratio(worst_ratio);

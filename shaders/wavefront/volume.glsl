@@ -112,17 +112,25 @@ Field begin_field(Medium medium, vec3 origin, vec3 direction, float t_surface, o
     return f;
 }
 
+/// Steps of this invocation through cells and shells. They must be few: lavapipe breaks off all
+/// loops of eight invocations, and says nothing, once these have been round 65535 times in them.
+uint steps_walked = 0u;
+const uint FLIGHT_STEPS_MAX = 2048u; ///< Of one call of next_collision.
+const uint STEPS_MAX = 4096u;        ///< Before the last call of an invocation.
+
 /// Goes on from t through the cells of the grid until the optical distance tau of the majorants is
-/// used up. True if it is: then t is where, and `bound` the majorant there. (On testing first see
-/// phases.glsl; it costs other drivers 4 %.)
-bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) {
+/// used up. True if it is: then t is where, and `bound` the majorant there. Else t is the end of
+/// the line; or short of it, after FLIGHT_STEPS_MAX cells, and tau is what is left of the flight.
+/// (On testing first see phases.glsl; it costs other drivers 4 %.)
+bool next_collision_in_grid(Field f, inout float tau, inout float t, out float bound) {
     CellWalk walk = begin_cells(f.origin, f.direction, vec3(f.grid.majorant_lower),
                                 float(f.grid.majorant_size), f.grid.majorant_count, t);
     const ivec3 n = f.grid.majorant_count;
     bool collides = false, has_left = false;
+    uint steps = 0u;
     bound = 0.0;
     do {
-        if (loops_test_first != 0u && (collides || has_left)) break;
+        if (loops_test_first != 0u && (collides || has_left || steps == FLIGHT_STEPS_MAX)) break;
         const ivec3 c = walk.cell;
         bound = f.sigma_max *
                 uintBitsToFloat(table_word(f.grid.majorants, uint(c.x + n.x * (c.y + n.y * c.z))));
@@ -134,39 +142,51 @@ bool next_collision_in_grid(Field f, float tau, inout float t, out float bound) 
         tau -= depth;
         walk.cell[axis] += walk.step[axis];
         has_left = t >= f.t_end || walk.cell[axis] < 0 || walk.cell[axis] >= n[axis];
-    } while (loops_test_first != 0u || (!collides && !has_left));
+        ++steps;
+    } while (loops_test_first != 0u || (!collides && !has_left && steps < FLIGHT_STEPS_MAX));
+    steps_walked += steps;
+    if (has_left && !collides) t = f.t_end;
     return collides;
 }
 
 /// Likewise around a sphere, in steps over which the density hardly changes. Along a line the
 /// density is largest where the line is nearest to the centre, so its bound over a step is exact.
-bool next_collision_in_atmosphere(Field f, float tau, inout float t, out float bound) {
+/// Seen from 2^24 scale heights away, these and free paths are below the rounding of t: then each
+/// is a few roundings, or the walk would stand still.
+bool next_collision_in_atmosphere(Field f, inout float tau, inout float t, out float bound) {
     const float speed2 = dot(f.direction, f.direction);
     const float speed = sqrt(speed2);
     const float t_nearest = -dot(f.origin, f.direction) / speed2;
+    const float rounding = 4e-7;
     bool collides, has_left;
+    uint steps = 0u;
     do {
         const float height = max(0.0, length(f.origin + t * f.direction) - f.sphere.radius);
-        const float exit = min(t + max(f.sphere.scale_height, 0.25 * height) / speed, f.t_end);
+        const float step = max(f.sphere.scale_height, 0.25 * height) / speed;
+        const float exit = min(t + max(step, rounding * t), f.t_end);
         const vec3 nearest = f.origin + clamp(t_nearest, t, exit) * f.direction;
         const float least = max(0.0, length(nearest) - f.sphere.radius) / f.sphere.scale_height;
         bound = f.sigma_max * exp(-least);
         const float depth = bound * (exit - t);
         collides = depth > tau;
-        t = collides ? min(t + tau / bound, exit) : exit;
+        t = collides ? min(t + max(tau / bound, rounding * t), exit) : exit;
         tau -= depth;
         has_left = t >= f.t_end || (least > 69.0 && t >= t_nearest); // exp(-69) = 1e-30
-    } while (!collides && !has_left);
+        ++steps;
+    } while (!collides && !has_left && steps < FLIGHT_STEPS_MAX);
+    steps_walked += steps;
+    if (has_left && !collides) t = f.t_end;
     return collides;
 }
 
-bool next_collision(Field f, float tau, inout float t, out float bound) {
+bool next_collision(Field f, inout float tau, inout float t, out float bound) {
     bound = 0.0;
     if (densities == DENSITY_BIT_GRID) return next_collision_in_grid(f, tau, t, bound);
     if ((densities & DENSITY_BIT_GRID) != 0u && f.is_grid)
         return next_collision_in_grid(f, tau, t, bound);
     if ((densities & DENSITY_BIT_SPHERE) != 0u)
         return next_collision_in_atmosphere(f, tau, t, bound);
+    t = f.t_end;
     return false;
 }
 
@@ -210,24 +230,35 @@ Tap tap_field(Medium medium, Field f, float t, float u) {
 }
 
 /// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks
-/// (random.h), `worst_ratio` becomes the largest ratio of extinction to majorant.
+/// (random.h), `worst_ratio` becomes the largest ratio of extinction to majorant. What takes more
+/// than STEPS_MAX steps in one dispatch counts as ended by the limit of events, and is dark.
 vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_surface, Path p,
                          inout uint step, inout float worst_ratio) {
     float t, bound;
+    float tau = 0.0; // what is left of a flight, if any
     const Field f = begin_field(medium, origin, direction, t_surface, t);
     vec3 result = vec3(1);
-    bool collides = t < f.t_end;
+    bool goes_on = t < f.t_end;
     do {
-        const uvec4 words = draw(p, BLOCK_SHADOW + step++);
-        collides = collides && next_collision(f, exponential_variate(words.x), t, bound);
+        const uvec4 words = draw(p, BLOCK_SHADOW + step);
+        if (tau == 0.0) tau = exponential_variate(words.x);
+        const bool collides = goes_on && next_collision(f, tau, t, bound);
         if (collides) {
             const Tap tap = tap_field(medium, f, t, unit_float(words.y));
             const vec3 ratio = (tap.sigma_a + tap.sigma_s) / bound;
             worst_ratio = max(worst_ratio, max(ratio.x, max(ratio.y, ratio.z)));
             result *= max(1.0 - ratio, 0.0); // rounding: beyond 1
-            collides = max(result.x, max(result.y, result.z)) > 0.0 && t < f.t_end;
+            tau = 0.0;
+            ++steps_walked;
         }
-    } while (collides);
+        const bool pauses = !collides && t < f.t_end; // in the middle of a flight
+        step += pauses ? 0u : 1u;
+        if (goes_on && steps_walked > STEPS_MAX) {
+            note_mishap(HEALTH_EVENT_LIMIT, true);
+            result = vec3(0);
+        }
+        goes_on = goes_on && t < f.t_end && max(result.x, max(result.y, result.z)) > 0.0;
+    } while (goes_on);
     return result;
 }
 

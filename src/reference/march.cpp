@@ -10,7 +10,7 @@ namespace {
 
 /// Density of an atmosphere beyond so many scale heights counts for nothing.
 constexpr double vacuum_heights = 20;
-constexpr double most_steps = 1 << 20;
+constexpr double most_steps = 4096; // as on the device
 
 /// The part of a line within a ball around the origin.
 std::pair<double, double> chord(const Ray& ray, double radius) {

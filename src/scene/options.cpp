@@ -33,7 +33,8 @@ void read_screen_window(Parameters& parameters, Camera& camera) {
 void read_steps(Parameters& parameters, Integrator& integrator) {
     const Parameter* size = parameters.find("float", "stepsize");
     const Parameter* count = parameters.find("integer", "steps");
-    integrator.steps = parameters.get_integer("steps", integrator.steps, require::positive);
+    constexpr Requirement few{[](double x) { return x >= 1 && x <= 4096; }, "1 to 4096 steps"};
+    integrator.steps = parameters.get_integer("steps", integrator.steps, few);
     if (size) integrator.step_size = parameters.get_float("stepsize", 0, require::positive);
     if (size && count)
         parameters.diagnostics().error(size->where,

@@ -2,9 +2,11 @@
 
 #include "support/scenes.h"
 #include "support/volumes.h"
+#include "volume/majorants.h"
 
 #include <cctype>
 #include <cmath>
+#include <numbers>
 
 namespace tyndall::stability {
 namespace {
@@ -17,6 +19,13 @@ using selftest::Slab;
 using selftest::slab_scene;
 
 constexpr double kDepth2 = 0.1353352832366127; ///< exp(-2)
+
+double one(const glm::ivec3&) {
+    return 1;
+}
+double zero(const glm::ivec3&) {
+    return 0;
+}
 
 /// A box 1 deep, of a medium with these coefficients, before a sky of radiance 1.
 Scene box(const Rgb& sigma_a, const Rgb& sigma_s, double g = 0) {
@@ -54,7 +63,7 @@ Scene sunlit(const Slab& slab, double mu0, double mu) {
     Scene scene = seen_at(slab_scene(slab, Lit::both_sides), mu);
     scene.lights.clear();
     const double sine = std::sqrt(1 - mu0 * mu0);
-    add_light(scene, DistantLight{Rgb(3.141592653589793), {0, sine, mu0}});
+    add_light(scene, DistantLight{Rgb(std::numbers::pi), {0, sine, mu0}});
     return scene;
 }
 
@@ -73,13 +82,6 @@ Scene in_voxel_planes(const VoxelFunction& density, double sigma_t, const glm::i
     return scene;
 }
 
-double one(const glm::ivec3&) {
-    return 1;
-}
-double zero(const glm::ivec3&) {
-    return 0;
-}
-
 /// One voxel of a million among ones, all as hot as the sky: a furnace.
 Scene hot_voxel() {
     Scene scene = empty_scene(4);
@@ -92,6 +94,50 @@ Scene hot_voxel() {
     scene.media[0].density = Lattice{glm::dvec3(-0.1), glm::dvec3(0.1), {9, 9, 9}}.density(
         [](const glm::ivec3& v) { return v == glm::ivec3(4, 4, 4) ? 1e6 : 1.0; });
     add_shape(scene, full_sphere(0.3), {.inside = cloud});
+    return scene;
+}
+
+/// A single voxel: a density that falls from 2 in the middle to 0 a voxel away on each axis. A thin
+/// beam through the middle meets a depth of 2.
+Scene one_voxel() {
+    Scene scene = empty_scene(8, 1e-6);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    const int medium = add_medium(scene, Rgb(1), Rgb(0));
+    GridDensity density;
+    density.lower = glm::dvec3(-1);
+    density.density =
+        std::make_shared<const Grid>(make_dense_grid(std::vector<float>{2}, {1, 1, 1}));
+    density.majorants = build_majorants(*density.density, 1);
+    scene.media[0].density = density;
+    add_shape(scene, full_sphere(3), {.inside = medium});
+    return scene;
+}
+
+/// 1e5 voxels in a row, each of them a cell with a majorant of its own.
+Scene long_row_of_cells() {
+    constexpr int count = 100'000;
+    Scene scene = empty_scene(8, 1e-6);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    const int medium = add_medium(scene, Rgb(2), Rgb(0));
+    scene.media[0].density = Lattice{{-1, -1, 0}, {1, 1, 1}, {2, 2, count}}.density(one, 1);
+    add_shape(scene, full_sphere(3), {.inside = medium});
+    return scene;
+}
+
+/// An opaque planet as seen from far beyond 2^24 of its scale heights, where those are less than
+/// the rounding of a distance.
+Scene planet_from_afar() {
+    constexpr double radius = 1e8;
+    Scene scene = empty_scene(64, 1.25 * radius);
+    scene.camera.world_from_camera = translation({0, 0, -4 * radius});
+    add_infinite(scene);
+    scene.camera.medium = add_medium(scene, Rgb(1), Rgb(0));
+    ExponentialDensity density;
+    density.is_spherical = true;
+    density.radius = radius;
+    scene.media[0].density = density;
     return scene;
 }
 
@@ -131,11 +177,74 @@ Scene degenerate_box() {
     return scene;
 }
 
+/// A box that is there twice.
+Scene coincident_boxes() {
+    Scene scene = box(Rgb(2), Rgb(0));
+    scene.shapes.push_back(scene.shapes[0]);
+    return scene;
+}
+
+/// A ball that touches all faces of the box around it, in depths 1 and 1: of any ray, part of the
+/// way in each.
+Scene touching_ball() {
+    Scene scene = empty_scene(16, 0.25);
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_infinite(scene);
+    const int around = add_medium(scene, Rgb(1), Rgb(0)),
+              within = add_medium(scene, Rgb(1), Rgb(0));
+    add_shape(scene, box_mesh(glm::vec3(-1), glm::vec3(1)), {.inside = around});
+    add_shape(scene, full_sphere(1), {.inside = within, .outside = around});
+    return scene;
+}
+
+/// A grey wall under a lamp. Between them are boundaries, behind each of which a ray sets out from
+/// a little further on; and next to the lamp, closer than all of that together, a black wall.
+Scene lamp_close_to_a_wall() {
+    constexpr double far = 16384; // roundings there are 2^-10
+    Scene scene = empty_scene(4, 1e-3);
+    add_shape(scene, square_mesh(8, far + 4, -1), {.material = add_diffuse(scene, Rgb(0.5))});
+    for (int i = 0; i < 4; ++i)
+        add_shape(scene, square_mesh(8, 0, -1), {}, translation({0, 0, far + 1.5 + 0.5 * i}));
+    add_shape(scene, square_mesh(1, 0, -1), {.material = black},
+              translation({3, 0, far + 1 - 0.0625}));
+    add_light(scene, PointLight{Rgb(1), {3, 0, far + 1}});
+    return scene;
+}
+
+/// A lamp in the middle of a dense ball. All of its light leaves, the same to all sides: seen from
+/// one, its intensity is the radiance times the area of the picture, but for what comes straight.
+Scene lamp_in_a_dense_ball() {
+    Scene scene = empty_scene(16, 1);
+    scene.integrator.max_depth = 1'000'000;
+    scene.camera.world_from_camera = translation({0, 0, -4});
+    add_light(scene, PointLight{Rgb(4), {0, 0, 0}});
+    add_shape(scene, full_sphere(1), {.inside = add_medium(scene, Rgb(0), Rgb(4))});
+    return scene;
+}
+
+/// Within a ball that glows and reflects, so that no radiance but 1 is in balance.
+Scene enclosure(double reflectance) {
+    Scene scene = empty_scene(16, 0.5);
+    add_shape(scene, full_sphere(1),
+              {.material = add_diffuse(scene, Rgb(reflectance)),
+               .area_light = add_area_light(scene, Rgb(1 - reflectance)),
+               .reverse = true});
+    return scene;
+}
+
+/// Channels that glow 60 orders of magnitude apart.
+Scene glow_of_all_magnitudes() {
+    Scene scene = glowing(2);
+    scene.media[0].emission = {1e30, 1, 1e-30};
+    return scene;
+}
+
 Scene chromatic(const Rgb& depths, double albedo) {
     return box((1 - albedo) * depths, albedo * depths);
 }
 
 std::vector<Case> absorption() {
+    const double lit_at_45 = 0.5 / std::numbers::pi * std::sqrt(0.5) / 18;
     return {
         {"sigma 0", box(Rgb(0), Rgb(0)), 16, Rgb(1)},
         {"sigma denormal", box(Rgb(1e-45), Rgb(1e-40)), 16, Rgb(1)},
@@ -152,6 +261,14 @@ std::vector<Case> absorption() {
         // 8: so much of the way is not seen, per boundary, of a medium with sigma_t = 2.
         {"100 boundaries", many_boundaries(100), 16, Rgb(kDepth2), 100 * 2 * 16 * 0x1p-21},
         {"degenerate triangles", degenerate_box(), 16, Rgb(kDepth2), 2 * 2 * 16 * 0x1p-21},
+        {"coincident boxes", coincident_boxes(), 16, Rgb(kDepth2), 2 * 2 * 16 * 0x1p-21},
+        {"touching ball", touching_ball(), 16, Rgb(kDepth2), 2 * 2 * 16 * 0x1p-21},
+        {"glow of 1e30, 1 and 1e-30", glow_of_all_magnitudes(), 16,
+         (1 - kDepth2) * Rgb(1e30, 1, 1e-30)},
+        {"enclosure of reflectance 0.3", enclosure(0.3), 4096, Rgb(1)},
+        {"enclosure of reflectance 0.9", enclosure(0.9), 256, Rgb(1)},
+        {"lamp in a dense ball", lamp_in_a_dense_ball(), 65536, Rgb(1 - std::exp(-4.0))},
+        {"lamp close to a wall", lamp_close_to_a_wall(), 16, Rgb(lit_at_45), 2e-3},
     };
 }
 
@@ -163,6 +280,10 @@ std::vector<Case> grids() {
         // leave 1e-4 too little.
         {"hot voxel", hot_voxel(), 1, Rgb(1), 5e-5},
         {"grid of zeros", in_voxel_planes(zero, 1e6, cube), 1, Rgb(1)},
+        {"one voxel", one_voxel(), 4096, Rgb(kDepth2)},
+        // The depth of a cell is 2e-5, of which each subtraction loses 2^-24 of a flight's at most.
+        {"100000 cells", long_row_of_cells(), 64, Rgb(kDepth2), 100'000 * 2 * 0x1p-24},
+        {"planet from afar", planet_from_afar(), 16, Rgb(1 - std::numbers::pi / 6.25)},
         // 8 deep; tracked by null collisions, which leave all light or none.
         {"rays in planes of voxels", in_voxel_planes(one, 0.1, cube), 4096, Rgb(std::exp(-0.8))},
     };
