@@ -114,7 +114,7 @@ std::uint32_t ReferenceEngine::render(std::uint32_t first_sample, std::uint32_t 
     for (std::uint32_t batch = batches.first(); batch < batches.end(); ++batch) {
         const std::uint32_t size = batches.samples_of(batch);
         const auto go_on = [&](double share) {
-            progress.paths = (progress.samples + share * size) * static_cast<double>(pixel_count());
+            progress.begun = progress.done = progress.samples + share * size;
             return !keep_going || keep_going(progress) || progress.samples == 0;
         };
         const auto sums = renderer_.render(first_sample + progress.samples, size, go_on);

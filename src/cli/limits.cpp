@@ -52,7 +52,7 @@ std::optional<double> samples_to_half(const Progress& progress) {
 
 std::optional<Prediction> foresee_end(const Limits& limits, const Progress& progress,
                                       const Pace& pace, double before) {
-    if (!samples_to_half(progress)) return std::nullopt;
+    if (!pace.is_steady || !samples_to_half(progress)) return std::nullopt;
     Prediction end{.at_samples = progress.samples,
                    .at_seconds = pace.seconds,
                    .stopped_by = "spp",

@@ -3,6 +3,7 @@
 
 #include "render/renderer.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -35,12 +36,18 @@ struct Prediction {
 /// How fast a render goes.
 struct Pace {
     double seconds = 0;            ///< Of rendering so far.
-    double samples = 0;            ///< Per pixel, begun so far.
-    double samples_per_second = 0; ///< Lately; > 0.
+    double samples = 0;            ///< Per pixel, done so far.
+    double traced = 0;             ///< The same with half of those that are begun but not done.
+    double samples_per_second = 0; ///< Of those traced, lately; > 0.
+    /// Whether few are begun but not done: until then nobody can tell how far those are.
+    bool is_steady = true;
 
-    /// Seconds of rendering from now until so many samples per pixel are done.
+    /// Seconds of rendering from now until so many samples per pixel are done; infinite if nobody
+    /// can tell.
     double seconds_to(double wanted) const {
-        return wanted > samples ? (wanted - samples) / samples_per_second : 0;
+        if (wanted <= samples) return 0;
+        if (!is_steady) return std::numeric_limits<double>::infinity();
+        return (wanted - samples) / samples_per_second;
     }
 };
 

@@ -113,10 +113,14 @@ double Job::pixels() const {
 /// Measured since the first call of keep_going: what came before has the costs of a first time in
 /// it.
 Pace Job::pace(const Progress& progress) const {
-    Pace now{.seconds = seconds_since(render_start_), .samples = progress.paths / pixels()};
-    const Pace since = now.samples > first_pace_.samples ? first_pace_ : Pace{};
+    const double in_flight = progress.begun - progress.done;
+    Pace now{.seconds = seconds_since(render_start_),
+             .samples = progress.done,
+             .traced = progress.done + 0.5 * in_flight,
+             .is_steady = 0.5 * in_flight <= 0.25 * progress.done};
+    const Pace since = now.traced > first_pace_.traced ? first_pace_ : Pace{};
     now.samples_per_second =
-        std::max(1e-9, (now.samples - since.samples) / std::max(1e-9, now.seconds - since.seconds));
+        std::max(1e-9, (now.traced - since.traced) / std::max(1e-9, now.seconds - since.seconds));
     return now;
 }
 

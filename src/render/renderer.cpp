@@ -108,6 +108,11 @@ void Renderer::take_in(const Control& control) {
     folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
     health_.take_in(control);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
+    samples_done_ = samples();
+    const std::uint32_t window = wavefront_.window(), pending = folded_batches_ - epoch_batch_;
+    for (std::uint32_t batch = pending; batch < pending + window; ++batch)
+        samples_done_ += batches_.samples_of(epoch_batch_ + batch) *
+                         (control.finished[batch % window] / double(tables_.push.pixel_count));
     if (epoch_batch_ == batches_.first())
         std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());
 }
@@ -120,7 +125,7 @@ void Renderer::measure_error() {
         stats::estimate_error(contrasts_, wavefront_.read_error_sums(), tables_.push.pixel_count);
 }
 
-/// Camera paths begun of each pixel; between batches, in proportion.
+/// Samples begun of each pixel; between batches, in proportion.
 double Renderer::samples_begun(std::uint32_t batch_count) const {
     const double batches = std::min<double>(epoch_share_, batch_count);
     const auto whole = static_cast<std::uint32_t>(batches);
@@ -138,7 +143,8 @@ bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
     }
     const Progress progress{.samples = samples(),
                             .end_samples = batches_.samples_before(batches_.end()),
-                            .paths = samples_begun(batch_count) * tables_.push.pixel_count,
+                            .begun = samples_begun(batch_count),
+                            .done = samples_done_,
                             .error = error_,
                             .is_look = is_look,
                             .batches = folded_batches_ - batches_.first(),

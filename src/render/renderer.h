@@ -17,7 +17,8 @@ namespace tyndall {
 struct Progress {
     std::uint32_t samples = 0;     ///< Per pixel, in the film.
     std::uint32_t end_samples = 0; ///< Per pixel, asked for.
-    double paths = 0;              ///< Camera paths begun.
+    double begun = 0,
+           done = 0; ///< Samples per pixel; those of a batch once the pixel has them all.
     /// Of the film at the last look (BatchRange::next_look), none before or if it cannot be told.
     std::optional<stats::ErrorEstimate> error;
     /// Whether this is a look: the film has `batches` batches, and waits. Looks come at the same
@@ -102,6 +103,7 @@ class Renderer {
     std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
     std::uint32_t look_batch_ = 0;     ///< No more are folded before the next look.
     double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
+    double samples_done_ = 0;          ///< Per pixel, those of batches in part included.
     HealthCounts health_;
     stats::BatchContrasts contrasts_;
     std::uint32_t contrasted_batches_ = 0; ///< End of the batches in contrasts_.

@@ -60,6 +60,8 @@ class Wavefront {
     EventLog read_log() const;
 
     const Tuning& tuning() const { return tuning_; }
+    /// Batches that are worked on at the same time, at most.
+    std::uint32_t window() const { return push_.window; }
     const shared::Features& features() const { return features_; }
     std::vector<std::pair<std::string, std::uint64_t>> memory() const;
     /// In the order in which they run.

@@ -81,6 +81,7 @@ TEST(Limits, TheFirstOfThemIsForeseen) {
         foresee_end({.end_samples = 100, .target_error = 0.1}, now, pace, 1).value();
     EXPECT_EQ(spp.stopped_by, "spp");
     EXPECT_DOUBLE_EQ(spp.seconds, 10);
+    EXPECT_FALSE(foresee_end({.end_samples = 100}, now, {.samples = 20, .is_steady = false}, 1));
     // 15 seconds of the program, of which 1 was over before the rendering.
     const Prediction time =
         foresee_end({.end_samples = 1000, .time = 15, .target_error = 0.1}, now, pace, 1).value();
