@@ -36,6 +36,14 @@ TYNDALL_CONSTANT float WEIGHT_MAX = 1024.0f;
 // Integrator::event_limit.
 TYNDALL_CONSTANT uint SHADOW_CROSSINGS_MAX = 1024u;
 
+// Rounding of distances from the centre of a planet, relative to these: half a metre on Earth, by
+// which bounds on the density of its air have to go lower.
+TYNDALL_CONSTANT float HEIGHT_ERROR = 2.4e-7f;
+
+// How far apart surfaces still touch, in errors of the point that was hit: as far as the vertices
+// of faces of different extent may be rounded.
+TYNDALL_CONSTANT float CONTACT_ERRORS = 16.0f;
+
 #ifdef __cplusplus
 /// As --stats and the attributes of EXR files call the kinds.
 inline constexpr std::array<const char*, HEALTH_COUNT> kHealthNames{

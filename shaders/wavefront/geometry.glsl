@@ -75,9 +75,17 @@ uint after_primitive(uint node, bool done, int base) {
     return done ? NONE : pop_if(is_leaf(node) && is_last, rest, base);
 }
 
-/// A ray towards a point of the primitive `target` at t_max does not hit that primitive there.
-bool is_target(uint primitive, uint target, float t, float t_max) {
-    return (lights & LIGHTS_AREA) != 0u && primitive == target && t > 0.999 * t_max;
+/// Hits of this primitive that do not count: those beyond a distance.
+struct Skip {
+    uint primitive;
+    uint instance;
+    float beyond;
+};
+const Skip NO_SKIP = Skip(NONE, NONE, 0.0);
+
+bool is_skipped(Skip skip, uint primitive, uint instance, float t) {
+    return ((lights & LIGHTS_AREA) != 0u || has_contacts != 0u) && primitive == skip.primitive &&
+           instance == skip.instance && t > skip.beyond;
 }
 
 /// Takes the primitive for the hit if it is one.
@@ -87,8 +95,7 @@ void take_hit(bool is_hit, float t, uint primitive, uint instance, inout Hit hit
     hit.instance = is_hit ? instance : hit.instance;
 }
 
-void walk_triangles(Ray ray, uint root, uint instance, float t_max, bool any, uint target,
-                    inout Hit hit) {
+void walk_triangles(Ray ray, uint root, uint instance, bool any, Skip skip, inout Hit hit) {
     const int base = stack_size;
     uint node = root;
     do {
@@ -100,7 +107,7 @@ void walk_triangles(Ray ray, uint root, uint instance, float t_max, bool any, ui
         const bool is_hit =
             intersect_triangle(ray, floats(fetch_scene(texel)), floats(fetch_scene(texel + 1u)),
                                floats(fetch_scene(texel + 2u)), plane.xyz, plane.w, hit.t, t) &&
-            is_leaf(node) && !is_target(i, target, t, t_max);
+            is_leaf(node) && !is_skipped(skip, i, instance, t);
         take_hit(is_hit, t, i, instance, hit);
         node = after_primitive(node, any && is_hit, base);
     } while (node != NONE);
@@ -122,8 +129,7 @@ bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t)
 }
 
 /// Patches, quadrics and boxes.
-void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint target,
-                 inout Hit hit) {
+void walk_others(Ray ray, uint root, uint instance, bool any, Skip skip, inout Hit hit) {
     const int base = stack_size;
     uint node = root;
     do {
@@ -140,34 +146,33 @@ void walk_others(Ray ray, uint root, uint instance, float t_max, bool any, uint 
             is_hit = intersect_quadric(ray, kind, p.extra, hit.t, t);
         if ((primitives & PRIMITIVE_BOXES) != 0u && kind == KIND_BOX)
             is_hit = intersect_box_surface(ray, p.a, p.b, hit.t, t);
-        is_hit = is_hit && is_leaf(node) && !is_target(i, target, t, t_max);
+        is_hit = is_hit && is_leaf(node) && !is_skipped(skip, i, instance, t);
         take_hit(is_hit, t, i, instance, hit);
         node = after_primitive(node, any && is_hit, base);
     } while (node != NONE);
     stack_size = base;
 }
 
-void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance, float t_max,
-                     bool any, uint target, inout Hit hit) {
+void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance, bool any,
+                     Skip skip, inout Hit hit) {
     if ((primitives & PRIMITIVE_TRIANGLES) != 0u)
-        walk_triangles(ray, triangle_root, instance, t_max, any, target, hit);
+        walk_triangles(ray, triangle_root, instance, any, skip, hit);
     if ((primitives & PRIMITIVE_OTHERS) != 0u) {
         const bool is_done = any && hit.primitive != NONE;
-        walk_others(ray, is_done ? NONE : other_root, instance, t_max, any, target, hit);
+        walk_others(ray, is_done ? NONE : other_root, instance, any, skip, hit);
     }
 }
 
 /// What the world holds itself, then the instances that the ray may hit. Each is alone in its leaf;
 /// its hierarchies are walked in its own space. (One call for both: drivers inline it.)
-void walk_instances(Ray ray, float t_max, bool any, uint target, inout Hit hit) {
+void walk_instances(Ray ray, bool any, Skip skip, inout Hit hit) {
     const int base = stack_size;
     uint node = push.instance_root, instance = NONE;
     uvec2 roots = uvec2(push.triangle_root, push.other_root);
     Ray inner = ray;
     bool goes_on;
     do {
-        walk_primitives(inner, roots.x, roots.y, instance, t_max, any,
-                        instance == NONE ? target : NONE, hit);
+        walk_primitives(inner, roots.x, roots.y, instance, any, skip, hit);
         if (any && hit.primitive != NONE) node = NONE;
         do { // all the way: what follows is costly
             node = descend(ray, hit.t, node, base);
@@ -187,14 +192,14 @@ void walk_instances(Ray ray, float t_max, bool any, uint target, inout Hit hit) 
     stack_size = base;
 }
 
-/// The nearest hit within (0, t_max), or with `any` some hit. For `target` see is_target.
-Hit trace(vec3 origin, vec3 direction, float t_max, bool any, uint target) {
+/// The nearest hit within (0, t_max), or with `any` some hit.
+Hit trace(vec3 origin, vec3 direction, float t_max, bool any, Skip skip) {
     Hit hit = Hit(t_max, NONE, NONE);
     const Ray ray = make_ray(origin, direction);
     if ((primitives & PRIMITIVE_INSTANCES) != 0u)
-        walk_instances(ray, t_max, any, target, hit);
+        walk_instances(ray, any, skip, hit);
     else
-        walk_primitives(ray, push.triangle_root, push.other_root, NONE, t_max, any, target, hit);
+        walk_primitives(ray, push.triangle_root, push.other_root, NONE, any, skip, hit);
     if (hit.primitive == NONE) hit.t = INFINITY;
     return hit;
 }

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "wavefront/contact.glsl"
 #include "wavefront/surface.glsl"
 
 // Finds where the segment of each path ends: at the nearest surface, or before it by a collision in
@@ -16,7 +17,7 @@ void main() {
     uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK
                                              : QUEUE_ENDED; // ENDED: waits for work, or escapes
     if (p.status == STATUS_RAY && can_go_on(p)) {
-        hit = trace(p.origin, p.direction, INFINITY, false, NONE);
+        hit = meet(p.origin, p.direction, INFINITY, false, NO_SKIP, p.medium);
         const Hit surface = hit;
         queue = queue_of_surface(hit.primitive);
         // Two ifs: the outer is of constants alone, and goes with what is in it.

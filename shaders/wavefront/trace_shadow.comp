@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "wavefront/interact.glsl"
+#include "wavefront/contact.glsl"
 #include "wavefront/march.glsl"
 
 // Traces shadow rays: what reaches a path from the light it chose.   SHADOW queue -> radiance
@@ -24,8 +24,13 @@ vec3 visibility(vec3 origin, vec3 direction, float distance, uint medium, uint t
     uint step = 0u;
     for (uint crossings = 0u; crossings < SHADOW_CROSSINGS_MAX; ++crossings) {
         const bool any = has_interfaces == 0u;
-        const Hit hit = trace(origin, direction, distance, any, target);
-        const bool is_free = hit.primitive == NONE;
+        // It does not hit the point that it goes to.
+        const Skip skip = Skip(target, NONE, 0.999 * distance);
+        const Hit hit = meet(origin, direction, distance, any, skip, medium);
+        // In touch with a boundary, it does.
+        const bool is_free =
+            hit.primitive == NONE ||
+            (has_contacts != 0u && is_skipped(skip, hit.primitive, hit.instance, hit.t));
         const ShapeRecord shape = load_shape(is_free ? 0u : shape_of(hit.primitive));
         if (!is_free && (has_interfaces == 0u || (shape.flags & SHAPE_INTERFACE) == 0u))
             return vec3(0);

@@ -20,22 +20,25 @@ Bounds transform(const Bounds& box, const Placement& placement) {
 /// same because its direction is not normalised.
 class Geometry::NearestHit final : public BoxTree::Visitor {
   public:
-    NearestHit(const Geometry& geometry, const Group& group, const Ray& ray)
-        : geometry_(geometry), group_(group), ray_(ray) {}
+    /// Within the instance of that placement, or in the world (nullptr).
+    NearestHit(const Geometry& geometry, const Group& group, const Ray& ray,
+               const SurfaceHit* other_than, const Placement* placement)
+        : geometry_(geometry), group_(group), ray_(ray), other_than_(other_than),
+          placement_(placement) {}
 
     double visit(std::uint32_t item, double t_max) override {
         if (item >= group_.items.size()) return visit_instance(item - group_.items.size(), t_max);
         const PrimitiveId id = group_.items[item];
+        if (other_than_ && other_than_->space == space() && other_than_->id == id) return t_max;
         const auto hit = group_.surfaces[id.surface].intersect(id.primitive, ray_, t_max);
         if (!hit) return t_max;
-        hit_ = {{*hit, id, &group_.surfaces[id.surface], nullptr}};
+        hit_ = {{*hit, id, &group_.surfaces[id.surface], placement_}};
         return hit->t;
     }
 
     std::optional<SurfaceHit> result() const {
         if (!hit_) return std::nullopt;
         SurfacePoint point = hit_->surface->point(hit_->id.primitive, hit_->where.parameters);
-        std::optional<PrimitiveId> id = hit_->id;
         if (const Placement* placement = hit_->placement) {
             // In an instance: lengths grow by at most the norm of the map.
             const double scale = glm::length(placement->linear[0]) +
@@ -45,10 +48,9 @@ class Geometry::NearestHit final : public BoxTree::Visitor {
             point.position = placement->point(point.position);
             point.normal = placement->normal(point.normal);
             point.shading_normal = placement->normal(point.shading_normal);
-            id.reset();
         }
         const Placement* space = hit_->placement ? hit_->placement : &geometry_.world_space_;
-        return SurfaceHit{hit_->where.t, point, &hit_->surface->shape(), id, space};
+        return SurfaceHit{hit_->where.t, point, &hit_->surface->shape(), hit_->id, space};
     }
 
   private:
@@ -59,21 +61,24 @@ class Geometry::NearestHit final : public BoxTree::Visitor {
         const Placement* placement;
     };
 
+    const Placement* space() const { return placement_ ? placement_ : &geometry_.world_space_; }
+
     double visit_instance(std::size_t index, double t_max) {
         const Instance& instance = geometry_.instances_[index];
         const Group& definition = geometry_.definitions_[static_cast<std::size_t>(instance.object)];
         const Ray local = instance.placement.inverse_ray(ray_);
-        NearestHit inside(geometry_, definition, local);
+        NearestHit inside(geometry_, definition, local, other_than_, &instance.placement);
         definition.tree.traverse(local, t_max, inside);
         if (!inside.hit_) return t_max;
         hit_ = inside.hit_;
-        hit_->placement = &instance.placement;
         return hit_->where.t;
     }
 
     const Geometry& geometry_;
     const Group& group_;
     const Ray& ray_;
+    const SurfaceHit* other_than_;
+    const Placement* placement_;
     std::optional<Found> hit_;
 };
 
@@ -110,8 +115,9 @@ Geometry::Geometry(const Scene& scene, const dvec3& camera_position)
     world_ = make_group(scene.shapes, render_from_world, instance_boxes);
 }
 
-std::optional<SurfaceHit> Geometry::intersect(const Ray& ray, double t_max) const {
-    NearestHit nearest(*this, world_, ray);
+std::optional<SurfaceHit> Geometry::intersect(const Ray& ray, double t_max,
+                                              const SurfaceHit* other_than) const {
+    NearestHit nearest(*this, world_, ray, other_than, nullptr);
     world_.tree.traverse(ray, t_max, nearest);
     return nearest.result();
 }

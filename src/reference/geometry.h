@@ -6,17 +6,19 @@
 
 namespace tyndall::reference {
 
-/// Names a primitive that is not part of an instance.
+/// Names a primitive of the world, or of the definition of an instance.
 struct PrimitiveId {
-    std::uint32_t surface; ///< Index into Scene::shapes.
+    std::uint32_t surface; ///< Index into Scene::shapes, or those of the definition.
     std::uint32_t primitive;
+
+    bool operator==(const PrimitiveId&) const = default;
 };
 
 struct SurfaceHit {
     double t;
     SurfacePoint point;
     const Shape* shape;
-    std::optional<PrimitiveId> id; ///< None in an instance.
+    PrimitiveId id;
     const Placement*
         space; ///< Render space from the world, or from the definition of the instance.
 };
@@ -26,8 +28,10 @@ class Geometry {
     /// Keeps a reference to the scene.
     Geometry(const Scene& scene, const dvec3& camera_position);
 
-    /// The nearest surface with 0 < t < t_max; interfaces are surfaces, too.
-    std::optional<SurfaceHit> intersect(const Ray& ray, double t_max) const;
+    /// The nearest surface with 0 < t < t_max, but for the primitive of `other_than`; interfaces
+    /// are surfaces, too.
+    std::optional<SurfaceHit> intersect(const Ray& ray, double t_max,
+                                        const SurfaceHit* other_than = nullptr) const;
 
     /// Render space from the world.
     const Placement& world_space() const { return world_space_; }

@@ -250,14 +250,14 @@ double Lights::area_density(const AreaEmitter& light, const dvec3& place,
 }
 
 Rgb Lights::emitted(const SurfaceHit& hit, const dvec3& ray_direction) const {
-    if (!hit.id || first_emitter_[hit.id->surface] < 0) return Rgb(0);
-    const auto& light = std::get<AreaEmitter>(emitters_[area_light_index(*hit.id)]);
+    if (hit.space != &geometry_.world_space() || first_emitter_[hit.id.surface] < 0) return Rgb(0);
+    const auto& light = std::get<AreaEmitter>(emitters_[area_light_index(hit.id)]);
     const bool faces = glm::dot(hit.point.normal, ray_direction) < 0;
     return faces || light.two_sided ? light.radiance : Rgb(0);
 }
 
 double Lights::density(const dvec3& place, const SurfaceHit& hit) const {
-    const std::uint32_t index = area_light_index(*hit.id);
+    const std::uint32_t index = area_light_index(hit.id);
     const auto& light = std::get<AreaEmitter>(emitters_[index]);
     return choice_.probability(index) * area_density(light, place, hit.point);
 }

@@ -30,7 +30,7 @@ bool PathTracer::Walk::can_go_on() {
 }
 
 bool PathTracer::Walk::step() {
-    const std::optional<SurfaceHit> hit = tracer_.geometry_.intersect(at_.ray, infinity);
+    const std::optional<SurfaceHit> hit = tracer_.intersect(at_, infinity);
     if (hit) add_expected_emission(*hit);
     if (const auto line = tracer_.medium_line(at_)) {
         const double end = hit ? hit->t : infinity;
@@ -147,16 +147,15 @@ double PathTracer::Walk::emission_weight(double t, const Rgb& emission,
 }
 
 void PathTracer::Walk::log(PathEvent::Kind kind, const dvec3& place, const Shape* shape) {
-    if (!report_.events) return;
-    report_.events->push_back({kind, event_, tracer_.world_point(place), at_.ray.direction,
-                               tracer_.medium_index(at_), throughput_.beta, radiance_, shape});
+    if (!report_.replay) return;
+    report_.tell({kind, event_, tracer_.world_point(place), at_.ray.direction,
+                  tracer_.medium_index(at_), throughput_.beta, radiance_, shape});
 }
 
 void PathTracer::Walk::log_light(const Start& shadow, const Rgb& added) {
-    if (!report_.events) return;
-    report_.events->push_back({Kind::light, event_, tracer_.world_point(shadow.ray.origin),
-                               shadow.ray.direction, tracer_.medium_index(shadow), added,
-                               radiance_});
+    if (!report_.replay) return;
+    report_.tell({Kind::light, event_, tracer_.world_point(shadow.ray.origin), shadow.ray.direction,
+                  tracer_.medium_index(shadow), added, radiance_});
 }
 
 bool PathTracer::Walk::survive(double reach) {

@@ -1,6 +1,7 @@
 #include "reference/walk.h"
 
 #include "reference/path_walk.h"
+#include "scene/contacts.h"
 
 #include <algorithm>
 
@@ -22,6 +23,7 @@ PathTracer::PathTracer(const Scene& scene, const Geometry& geometry, const Light
       steps_{scene.integrator.steps, scene.integrator.step_size},
       is_grey_(std::all_of(scene.media.begin(), scene.media.end(), is_grey) &&
                std::none_of(scene.materials.begin(), scene.materials.end(), is_dispersive)) {
+    has_contacts_ = find_contact(scene) != nullptr;
     if (scene.integrator.kind == Integrator::Kind::path) return;
     lit_ball_ = find_lit_ball(scene);
     if (lit_ball_) lit_ball_->center -= dvec3(scene.camera.world_from_camera[3]);
@@ -47,12 +49,46 @@ double PathTracer::reach_of_light(const dvec3& place, const Medium& medium) cons
     return share * share * seen;
 }
 
-PathTracer::Start PathTracer::leave_surface(const SurfaceHit& hit, const dvec3& direction,
+PathTracer::Surroundings PathTracer::beyond(const SurfaceHit& hit, const dvec3& direction,
                                             const Surroundings& before) {
     const MediumInterface& media = hit.shape->media;
+    if (!media.is_transition()) return before;
     const bool outside = glm::dot(direction, hit.point.normal) > 0;
-    const Surroundings beyond{outside ? media.outside : media.inside, hit.space};
-    return {{leave(hit.point, direction), direction}, media.is_transition() ? beyond : before};
+    return {outside ? media.outside : media.inside, hit.space};
+}
+
+PathTracer::Start PathTracer::leave_surface(const SurfaceHit& hit, const dvec3& direction,
+                                            const Surroundings& before) {
+    return {{leave(hit.point, direction), direction}, beyond(hit, direction, before)};
+}
+
+bool PathTracer::is_boundary(const SurfaceHit& hit) const {
+    return scene_.materials[static_cast<std::size_t>(hit.shape->material)].kind ==
+           Material::Kind::interface;
+}
+
+bool PathTracer::is_crossed_first(const SurfaceHit& a, const SurfaceHit& b, const Start& start) {
+    const dvec3& direction = start.ray.direction;
+    const Surroundings before_a = beyond(a, -direction, start.in);
+    const Surroundings before_b = beyond(b, -direction, start.in);
+    if (before_a == start.in && beyond(a, direction, start.in) == before_b) return true;
+    if (before_b == start.in && beyond(b, direction, start.in) == before_a) return false;
+    return glm::dot(direction, b.point.normal) < 0;
+}
+
+std::optional<SurfaceHit> PathTracer::intersect(const Start& start, double t_max) const {
+    const Ray& ray = start.ray;
+    const std::optional<SurfaceHit> hit = geometry_.intersect(ray, t_max);
+    if (!has_contacts_ || !hit || !is_boundary(*hit)) return hit;
+    const double reach = shared::CONTACT_ERRORS * hit->point.error /
+                         std::max(std::abs(glm::dot(ray.direction, hit->point.normal)), 0.01);
+    const double near = std::max(hit->t - reach, 0.0);
+    std::optional<SurfaceHit> other =
+        geometry_.intersect({ray.origin + near * ray.direction, ray.direction},
+                            std::min(hit->t + reach, t_max) - near, &*hit);
+    if (!other) return hit;
+    other->t += near;
+    return is_boundary(*other) && !is_crossed_first(*hit, *other, start) ? hit : other;
 }
 
 Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPath& random,
@@ -72,10 +108,8 @@ Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPa
             if (distance == 0) return result;
             start.ray.direction = offset / distance;
         }
-        const std::optional<SurfaceHit> hit = geometry_.intersect(start.ray, distance);
-        const Material* material =
-            hit ? &scene_.materials[static_cast<std::size_t>(hit->shape->material)] : nullptr;
-        if (material && material->kind != Material::Kind::interface) return Rgb(0);
+        const std::optional<SurfaceHit> hit = intersect(start, distance);
+        if (hit && !is_boundary(*hit)) return Rgb(0);
         const double end = hit ? hit->t : distance;
         if (const auto line = medium_line(start))
             result *= !line->is_tracked() ? transmittance(line->medium, line->column(end))

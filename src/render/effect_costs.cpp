@@ -57,7 +57,12 @@ struct Entry {
 };
 
 const Entry kEntries[] = {
-    {"interfaces", [](Features& f) { no_surface<QUEUE_INTERFACE>(f), f.has_interfaces = 0; }},
+    {"interfaces",
+     [](Features& f) {
+         no_surface<QUEUE_INTERFACE>(f);
+         f.has_interfaces = f.has_contacts = 0;
+     }},
+    {"boundaries in touch", [](Features& f) { f.has_contacts = 0; }},
     {"diffuse surfaces", no_surface<QUEUE_SURFACE>},
     {"smooth dielectrics", no_surface<QUEUE_DIELECTRIC>},
     {"rough dielectrics", no_surface<QUEUE_ROUGH_DIELECTRIC>},

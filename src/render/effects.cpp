@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "render/phase_tables.h"
+#include "scene/contacts.h"
 #include "scene/emitting_voxels.h"
 #include "shared/records.h"
 
@@ -119,6 +120,9 @@ void Collector::collect_geometry() {
     add("dispersion", f.has_dispersion, dispersion_by_);
     add("emitting surfaces", f.has_emitters, emitter_by_);
     add("shading normals", f.has_shading_normals, normals_by);
+    const Shape* contact = f.has_interfaces ? find_contact(scene_) : nullptr;
+    f.has_contacts = contact != nullptr;
+    add("boundaries in touch", f.has_contacts, contact ? place("shape", contact->where) : "");
     add("instances", !scene_.instances.empty(),
         scene_.instances.empty() ? "" : place("instance", scene_.instances.back().where));
 }

@@ -10,6 +10,6 @@ void main() {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= push.pixel_count) return;
     const MeshRay ray = mesh_ray(push.seed, index);
-    const Hit hit = trace(ray.origin, ray.direction, INFINITY, false, NONE);
+    const Hit hit = trace(ray.origin, ray.direction, INFINITY, false, NO_SKIP);
     store_film(index, vec4(hit.t, 0, 0, 0));
 }

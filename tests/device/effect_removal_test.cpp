@@ -178,7 +178,7 @@ class EffectListTest : public DeviceTest {};
 
 /// What is not in the table above would not be tested.
 TEST_F(EffectListTest, EachEffectIsTakenAwaySomewhere) {
-    std::set<std::string> tested{"roulette by reach of light"}; // below
+    std::set<std::string> tested{"roulette by reach of light", "boundaries in touch"}; // below
     for (const Removal& removal : kRemovals)
         tested.insert(removal.effect);
     const Build& all = stock().build;
@@ -203,6 +203,24 @@ TEST_F(EffectListTest, RouletteByReachIsTakenAwayByASky) {
     EXPECT_EQ(without.value("roulette by reach of light"), "no");
     shared::Features taken = *features_without("roulette by reach of light", with.features);
     EXPECT_LT(count_of(taken).instructions, count_of(with.features).instructions);
+}
+
+TEST_F(EffectListTest, BoundariesAreTakenApart) {
+    const auto make = [](double gap) {
+        Scene scene = empty_scene(8);
+        const int fog = add_medium(scene, Rgb(0.1), Rgb(0.2));
+        add_shape(scene, box_mesh(glm::vec3(-1, -1, 2), glm::vec3(1, 1, 3)), {.inside = fog});
+        add_shape(scene, square_mesh(2, 0, -1), {.material = add_diffuse(scene, Rgb(0.5))},
+                  translation({0, 0, 3 + gap}));
+        add_light(scene, PointLight{Rgb(1), {0, 0, 1}});
+        return scene;
+    };
+    const Build touching(make(0)), apart(make(0.1));
+    EXPECT_EQ(touching.value("boundaries in touch"), "yes");
+    EXPECT_EQ(apart.value("boundaries in touch"), "no");
+    EXPECT_TRUE(functions_of(touching.features).count("is_crossed_first")) << "no teeth";
+    EXPECT_FALSE(functions_of(apart.features).count("is_crossed_first"));
+    EXPECT_LT(count_of(apart.features).instructions, count_of(touching.features).instructions);
 }
 
 /// OpUMulExtended: only random numbers multiply so.

@@ -13,7 +13,7 @@ struct ForcedEffect {
 };
 
 /// For grey scenes with a hierarchy, a homogeneous medium, a diffuse surface and a point light.
-inline constexpr std::array<ForcedEffect, 11> kForcedEffects{{
+inline constexpr std::array<ForcedEffect, 12> kForcedEffects{{
     {"three channels", [](shared::Features& f) { f.is_grey = 0; }},
     {"emission of media", [](shared::Features& f) { f.has_emission = 1; }},
     {"phase functions", [](shared::Features& f) { f.phases = 15; }},
@@ -25,6 +25,7 @@ inline constexpr std::array<ForcedEffect, 11> kForcedEffects{{
     {"grids and atmospheres",
      [](shared::Features& f) { f.densities = 14, f.has_temperature = f.has_rgb_grids = 1; }},
     {"lens and limit", [](shared::Features& f) { f.has_lens = f.has_clamp = 1; }},
+    {"boundaries in touch", [](shared::Features& f) { f.has_contacts = 1; }},
     {"all lights", [](shared::Features& f) { f.lights = 31; }},
 }};
 
