@@ -150,9 +150,9 @@ bool next_collision_in_grid(Field f, inout float tau, inout float t, out float b
 }
 
 /// Likewise around a sphere, in steps over which the density hardly changes. Along a line the
-/// density is largest where the line is nearest to the centre, so its bound over a step is exact.
-/// Seen from 2^24 scale heights away, these and free paths are below the rounding of t: then each
-/// is a few roundings, or the walk would stand still.
+/// density is largest where the line is nearest to the centre, so its bound over a step is exact,
+/// but for rounding. Seen from 2^24 scale heights away, steps and free paths are below the rounding
+/// of t: then each is a few roundings, or the walk would stand still.
 bool next_collision_in_atmosphere(Field f, inout float tau, inout float t, out float bound) {
     const float speed2 = dot(f.direction, f.direction);
     const float speed = sqrt(speed2);
@@ -165,7 +165,9 @@ bool next_collision_in_atmosphere(Field f, inout float tau, inout float t, out f
         const float step = max(f.sphere.scale_height, 0.25 * height) / speed;
         const float exit = min(t + max(step, rounding * t), f.t_end);
         const vec3 nearest = f.origin + clamp(t_nearest, t, exit) * f.direction;
-        const float least = max(0.0, length(nearest) - f.sphere.radius) / f.sphere.scale_height;
+        const float slack = HEIGHT_ERROR * (length(nearest) + exit * speed);
+        const float least =
+            max(0.0, length(nearest) - slack - f.sphere.radius) / f.sphere.scale_height;
         bound = f.sigma_max * exp(-least);
         const float depth = bound * (exit - t);
         collides = depth > tau;

@@ -2,6 +2,7 @@
 
 #include "reference/medium.h"
 #include "scene/blackbody.h"
+#include "shared/health.h"
 
 #include <algorithm>
 
@@ -136,8 +137,13 @@ double AtmosphereFlight::advance(double tau) {
         // A scale height, or a quarter of the height: far out there is little to miss.
         const double step = density_.scale_height * std::max(1.0, relative_height(t_) / 4) / speed_;
         const double exit = std::min(t_ + step, t_end_);
-        // The density is greatest where the line is nearest to the centre: the bound is exact.
-        const double least_height = relative_height(std::clamp(t_nearest_, t_, exit));
+        // The density is greatest where the line is nearest to the centre. The bound leaves room
+        // for what float32 makes of the height, so that the device can have the same.
+        const double nearest =
+            glm::length(ray_.origin + std::clamp(t_nearest_, t_, exit) * ray_.direction);
+        const double slack = shared::HEIGHT_ERROR * (nearest + exit * speed_);
+        const double least_height =
+            std::max(0.0, nearest - slack - density_.radius) / density_.scale_height;
         const double majorant = sigma_max_ * std::exp(-least_height);
         const double depth = majorant * (exit - t_);
         if (depth > tau) {
