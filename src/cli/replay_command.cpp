@@ -129,8 +129,7 @@ int run_replay(const RenderOptions& options) {
     const std::size_t difference = first_difference(device, reference);
     print_replays(scene, device, reference, difference);
     print_end('D', device);
-    const bool is_same =
-        difference == device.events.size() && difference == reference.events.size();
+    const bool is_same = are_same(device, reference);
     std::puts(is_same ? "the same path, up to rounding" : "DIFFERENT paths");
     return static_cast<int>(is_same ? ExitStatus::done : ExitStatus::failed);
 }

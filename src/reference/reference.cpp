@@ -126,9 +126,8 @@ PixelSums ReferenceRenderer::render(std::uint32_t first_sample, std::uint32_t sa
 
 Replay ReferenceRenderer::replay(int x, int y, std::uint32_t sample) const {
     Replay replay{.camera = parts_->camera.position()};
-    PathReport report{.events = &replay.events};
+    PathReport report{.replay = &replay};
     replay.sum = parts_->sample(x, y, sample, report);
-    replay.event_count = replay.events.size();
     replay.mishaps = report.mishaps;
     return replay;
 }

@@ -11,6 +11,6 @@ namespace tyndall {
 /// @param capacity  Events that are kept; the rest are only counted.
 /// @throws Error    if the device fails.
 Replay replay_path(const gpu::Context& context, const Scene& scene, int x, int y,
-                   std::uint32_t sample, std::uint32_t capacity = 1u << 16);
+                   std::uint32_t sample, std::uint32_t capacity = kMostEvents);
 
 } // namespace tyndall

@@ -41,4 +41,9 @@ std::size_t first_difference(const Replay& a, const Replay& b) {
     return count;
 }
 
+bool are_same(const Replay& a, const Replay& b) {
+    return a.event_count == b.event_count && a.events.size() == b.events.size() &&
+           first_difference(a, b) == a.events.size();
+}
+
 } // namespace tyndall

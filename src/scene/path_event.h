@@ -29,6 +29,9 @@ struct PathEvent {
     const Shape* shape = nullptr; ///< surface, interface; null if the scene needs no hierarchy.
 };
 
+/// Events that a replay keeps, so that a path of millions can be told.
+constexpr std::size_t kMostEvents = std::size_t{1} << 16;
+
 /// One path, replayed.
 struct Replay {
     glm::dvec3 camera{0}; ///< Its place in the world, about which float32 is finest.
@@ -42,5 +45,8 @@ struct Replay {
 /// and what it grows to along a path: another kind, place (1e-3 of the way so far), direction,
 /// medium, throughput or radiance (1e-3 of it). Where both end alike, the length of both.
 std::size_t first_difference(const Replay& a, const Replay& b);
+
+/// Whether the events that are kept are the same, up to rounding, and as many happened.
+bool are_same(const Replay& a, const Replay& b);
 
 } // namespace tyndall

@@ -28,10 +28,6 @@ Replay device_replay(const Scene& scene, const PathName& path) {
     return replay_path(context(), scene, path.x, path.y, path.sample);
 }
 
-bool are_same(const Replay& a, const Replay& b) {
-    return a.events.size() == b.events.size() && first_difference(a, b) == a.events.size();
-}
-
 std::string tell(const Replay& replay) {
     std::string text;
     for (const PathEvent& event : replay.events)
