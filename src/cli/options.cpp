@@ -140,16 +140,22 @@ void add_selftest(CLI::App& app, SelftestOptions& o, int& status) {
 
 /// The arguments as a shell would take them.
 std::string command_line(int argc, char** argv) {
-    std::string text;
-    for (int i = 0; i < argc; ++i) {
-        const std::string word = i == 0 ? "tyndall" : argv[i];
-        const bool is_plain = word.find_first_of(" \t\n'\"*?[]$&|;<>()\\") == std::string::npos;
-        text += (i == 0 ? "" : " ") + (is_plain && !word.empty() ? word : "'" + word + "'");
-    }
+    std::string text = "tyndall";
+    for (int i = 1; i < argc; ++i)
+        text += ' ' + in_shell_quotes(argv[i]);
     return text;
 }
 
 } // namespace
+
+std::string in_shell_quotes(const std::string& word) {
+    if (!word.empty() && word.find_first_of(" \t\n'\"`*?[]{}~#!$&|;<>()\\") == std::string::npos)
+        return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
 
 int run(int argc, char** argv) {
     CLI::App app("Tyndall: light in participating media, on any Vulkan device.", "tyndall");

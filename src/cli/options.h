@@ -10,6 +10,9 @@
 
 namespace tyndall::cli {
 
+/// A word as a shell takes it: in quotes if it needs them.
+std::string in_shell_quotes(const std::string& word);
+
 /// What `render`, `verify` and `info` have in common: a scene, and changes to it.
 struct SceneOptions {
     std::string scene;

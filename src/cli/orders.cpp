@@ -1,17 +1,24 @@
 #include "cli/orders.h"
 
 #include "cli/engine.h"
+#include "core/error.h"
 
 #include <fmt/format.h>
 
 namespace tyndall::cli {
 namespace {
 
-/// The picture with at most so many scattering events.
-Image render_up_to(int depth, Scene scene, const DeviceOptions& options, std::uint32_t samples) {
+/// The picture with at most so many scattering events; none if it was interrupted.
+std::optional<Image> render_up_to(int depth, Scene scene, const DeviceOptions& options,
+                                  std::uint32_t samples,
+                                  const std::function<bool()>& is_interrupted) {
     scene.integrator.max_depth = std::min(depth, scene.integrator.max_depth);
     const std::unique_ptr<Engine> engine = make_engine(scene, options);
-    engine->render(0, samples, {});
+    engine->render(0, samples, [&](const Progress&) { return !is_interrupted(); });
+    if (engine->validation_messages() > 0)
+        throw Error(ExitStatus::failed, fmt::format("the validation layer had {} messages",
+                                                    engine->validation_messages()));
+    if (engine->samples() < samples) return std::nullopt;
     return engine->read_film();
 }
 
@@ -37,8 +44,9 @@ void set_difference(Image& image, std::size_t first, const Image& upper, const I
 
 } // namespace
 
-void add_orders(Image& film, const Scene& scene, const DeviceOptions& options,
-                std::uint32_t samples) {
+std::optional<Image> with_orders(const Image& film, const Scene& scene,
+                                 const DeviceOptions& options, std::uint32_t samples,
+                                 const std::function<bool()>& is_interrupted) {
     std::vector<std::string> names;
     for (int order = 0; order <= kOrders; ++order)
         for (const char* channel : {"R", "G", "B"})
@@ -48,12 +56,13 @@ void add_orders(Image& film, const Scene& scene, const DeviceOptions& options,
     Image result = widened(film, names);
     Image lower;
     for (int order = 0; order < kOrders; ++order, first += 3) {
-        Image upper = render_up_to(order, scene, options, samples);
-        set_difference(result, first, upper, order > 0 ? &lower : nullptr);
-        lower = std::move(upper);
+        std::optional<Image> upper = render_up_to(order, scene, options, samples, is_interrupted);
+        if (!upper) return std::nullopt;
+        set_difference(result, first, *upper, order > 0 ? &lower : nullptr);
+        lower = std::move(*upper);
     }
     set_difference(result, first, film, &lower);
-    film = std::move(result);
+    return result;
 }
 
 } // namespace tyndall::cli

@@ -5,6 +5,7 @@
 #include "cli/progress_line.h"
 #include "cli/progress_text.h"
 #include "cli/report.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "image/image.h"
 
@@ -25,8 +26,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The command of this render, without what does not tell which paths are traced.
-std::string replay_command(const SceneOptions& o) {
-    std::string command = "tyndall render " + o.scene;
+std::string replay_command(const SceneOptions& o, const DeviceOptions& device) {
+    std::string command = "tyndall render " + in_shell_quotes(o.scene);
+    if (!device.device.empty()) command += " --device " + in_shell_quotes(device.device);
     if (o.seed) command += fmt::format(" --seed {}", *o.seed);
     if (o.size) command += " --size " + *o.size;
     if (o.max_depth) command += fmt::format(" --maxdepth {}", *o.max_depth);
@@ -53,7 +55,10 @@ class Job {
   private:
     bool keep_going(const Progress& progress);
     std::string progress_text(const Progress& progress) const;
-    void write_images(double render_seconds, bool is_final = false);
+    void report_state(double render_seconds);
+    void write_images(const Image& picture);
+    void write_interval();
+    void write_layers();
     void choose_outputs();
     Limits limits() const;
     double pixels() const;
@@ -180,31 +185,71 @@ bool Job::keep_going(const Progress& progress) {
     if (report_.stopped_by != RenderReport::kUnfinished) return false;
     if (options_.write_interval && progress.samples > 0 &&
         seconds_since(last_write_) >= *options_.write_interval) {
-        write_images(seconds_since(render_start_));
+        write_interval();
         last_write_ = last_asked_ = Clock::now();
     }
     return true;
 }
 
-void Job::write_images(double render_seconds, bool is_final) {
+void Job::report_state(double render_seconds) {
     report_.film = engine_->read_film();
     report_.samples = engine_->samples();
     report_.error = engine_->error();
     report_.tail_share = engine_->tail_share();
     report_.seconds.render = render_seconds;
     report_.seconds.total = seconds_since(start_);
+}
+
+/// Writes as many of the outputs as can be written.
+/// @throws Error of the first that cannot.
+void Job::write_images(const Image& picture) {
     const ImageAttributes attributes = image_attributes(scene_, *engine_, report_);
-    Image picture = report_.film;
-    if (is_final && !options_.aovs.empty())
-        add_orders(picture, scene_, options_.device, report_.samples);
-    for (const std::string& output : outputs_)
-        write_image(output, picture, attributes, {.half = scene_.film.half_float});
+    std::optional<Error> failure;
+    for (const std::string& output : outputs_) {
+        try {
+            const std::size_t clamped =
+                write_image(output, picture, attributes, {.half = scene_.film.half_float});
+            if (clamped > 0)
+                std::fprintf(stderr, "%s: warning: %zu values were cut to 65504, the most that "
+                                     "half floats have (savefp16)\n",
+                             output.c_str(), clamped);
+        } catch (const Error& error) {
+            if (!failure) failure = error;
+        }
+    }
+    if (failure) throw *failure;
+}
+
+/// A disk that is full now may have room at the end: the render goes on.
+void Job::write_interval() {
+    report_state(seconds_since(render_start_));
+    try {
+        write_images(report_.film);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "\nwarning: %s; the render goes on\n", error.what());
+    }
+}
+
+/// Writes the outputs again, with layers. They are made by renders of their own: the picture is
+/// safe by now.
+void Job::write_layers() {
+    if (!options_.quiet) std::fputs("rendering the layers of --aov\n", stderr);
+    const auto layers =
+        with_orders(report_.film, scene_, options_.device, report_.samples, was_interrupted);
+    if (layers)
+        write_images(*layers);
+    else
+        report_.stopped_by = "signal";
 }
 
 void Job::choose_outputs() {
     outputs_ = options_.outputs.empty() ? std::vector{scene_.film.filename} : options_.outputs;
     for (const std::string& output : outputs_)
         check_image_extension(output);
+    // Now, not after hours: whether they can be written at all.
+    for (const std::string& output : outputs_)
+        AtomicFile probe(output);
+    if (!options_.stats.empty()) AtomicFile probe(options_.stats);
     const bool has_exr = std::any_of(outputs_.begin(), outputs_.end(),
                                      [](const auto& output) { return output.ends_with(".exr"); });
     if (!options_.aovs.empty() && !has_exr)
@@ -228,9 +273,11 @@ int Job::run() {
     if (report_.stopped_by == RenderReport::kUnfinished) report_.stopped_by = "spp";
     const double render_seconds = seconds_since(render_start_);
     line_.reset();
-    write_images(render_seconds, report_.stopped_by != "signal");
+    report_state(render_seconds);
+    write_images(report_.film);
+    if (!options_.aovs.empty() && report_.stopped_by != "signal") write_layers();
     if (!options_.quiet) std::fputs(closing_text(scene_, report_).c_str(), stderr);
-    std::fputs(health_text(engine_->health(), replay_command(options_.scene)).c_str(), stderr);
+    std::fputs(health_text(engine_->health(), replay_command(options_.scene, options_.device)).c_str(), stderr);
     if (!options_.stats.empty()) write_stats(options_.stats, scene_, *engine_, report_);
     if (engine_->validation_messages() > 0)
         throw Error(ExitStatus::failed, fmt::format("the validation layer had {} messages",

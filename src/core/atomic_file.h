@@ -7,7 +7,8 @@
 namespace tyndall {
 
 /// A file that is written under a temporary name in the same folder. commit() gives it its name;
-/// until then, and if anything fails, whatever had that name before stays as it was.
+/// until then, and if anything fails, whatever had that name before stays as it was. A symbolic
+/// link is followed; what is no file (a pipe, /dev/stdout) is written to at once.
 class AtomicFile {
   public:
     /// @throws Error failed: "cannot write FILE: reason".

@@ -23,7 +23,8 @@ std::vector<Rgb> layer(const Image& image, const std::string& name) {
 Image with_orders(const Scene& scene, const std::string& device, std::uint32_t samples) {
     Image film = render(scene, samples);
     // With the layer, as the context of the tests: entry points are those of the process.
-    cli::add_orders(film, scene, {.device = device, .validate = true}, samples);
+    film = *cli::with_orders(film, scene, {.device = device, .validate = true}, samples,
+                             [] { return false; });
     return film;
 }
 
