@@ -35,7 +35,7 @@ set(libraries
   "embree         | src/render src/reference"
   "openvdb nanovdb/ | src/volume"
   "CLI/           | src/cli"
-  "nlohmann/      | src/cli src/study")
+  "nlohmann/      | src/core src/cli src/study")
 
 set(failures)
 

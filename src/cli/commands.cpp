@@ -1,6 +1,7 @@
 #include "cli/options.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "gpu/context.h"
 #include "scene/options.h"
 #include "scene/reader.h"
@@ -115,7 +116,7 @@ int run_devices(const DevicesOptions& options) {
                         {"max_texel_buffer_elements", d.max_texel_buffer_elements},
                         {"max_storage_buffer_bytes", d.max_storage_buffer_bytes}});
     if (options.json) {
-        std::printf("%s\n", list.dump(2).c_str());
+        std::printf("%s\n", json_text(list, 2).c_str());
     } else {
         for (std::size_t i = 0; i < devices.size(); ++i)
             std::printf(

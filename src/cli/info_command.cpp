@@ -1,5 +1,6 @@
 #include "cli/options.h"
 #include "cli/phase_report.h"
+#include "core/json_text.h"
 #include "gpu/buffer.h"
 #include "render/effect_costs.h"
 #include "render/stages.h"
@@ -98,7 +99,7 @@ void print_json(const Scene& scene, const SceneInfo& info, bool with_phases) {
                 {"memory_bytes", memory},
                 {"bytes_per_path", 16 * path_texels(info.features)}};
     if (with_phases) result["phases"] = describe_phases(scene);
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}\n", json_text(result, 2));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "cli/progress_line.h"
 #include "cli/progress_text.h"
 #include "core/atomic_file.h"
+#include "core/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +152,7 @@ void write_stats(const std::string& file, const Scene& scene, const Engine& engi
                {"prediction", prediction_json(report)},
                {"health", health_json(engine)}};
     engine.describe(stats);
-    const std::string text = stats.dump(2) + '\n';
+    const std::string text = json_text(stats, 2) + '\n';
     AtomicFile out(file);
     std::fwrite(text.data(), 1, text.size(), out.stream());
     out.commit();

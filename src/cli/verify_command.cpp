@@ -2,6 +2,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "stats/agreement.h"
 #include "stats/compare.h"
 
@@ -91,7 +92,7 @@ int run_verify(const VerifyOptions& options) {
     corrupt(a, options.corrupt);
     const stats::Agreement agreement = stats::test_agreement(a, b, scene.film.bounds.width());
     if (options.json)
-        std::printf("%s\n", to_json(agreement).dump(2).c_str());
+        std::printf("%s\n", json_text(to_json(agreement), 2).c_str());
     else
         print(agreement, options, device->device_text(), samples);
     if (device->validation_messages() > 0)
@@ -121,7 +122,7 @@ int run_compare(const CompareOptions& options) {
                           {"p_blocks", t.p_blocks}};
     }
     if (options.json) {
-        std::printf("%s\n", result.dump(2).c_str());
+        std::printf("%s\n", json_text(result, 2).c_str());
         return 0;
     }
     std::printf("channel  rmse        relmse      mean a      mean b      ratio\n");

@@ -53,7 +53,6 @@ class Commands {
     void submit();
     /// Waits for the submission to end. Does nothing if there is none.
     void wait();
-    bool is_submitted() const { return submitted_; }
 
   private:
     const Context* context_;

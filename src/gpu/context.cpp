@@ -14,6 +14,9 @@ namespace tyndall::gpu {
 namespace {
 
 constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_2;
+/// Bindings of the renderer (shaders/shared/bindings.h): texels with their storage twins, control,
+/// queues, log.
+constexpr std::uint32_t kStorageBuffers = 8;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kInstallHint =
     "install a Vulkan driver, e.g. the package mesa-vulkan-drivers (lavapipe runs on any CPU)";
@@ -121,6 +124,9 @@ DeviceInfo describe(VkPhysicalDevice device) {
         info.missing = fmt::format("Vulkan 1.2 (it has {})", info.api_version);
     else if (!compute_family(device))
         info.missing = "a compute queue";
+    else if (basic.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        info.missing = fmt::format("{} storage buffers a stage (it has {})", kStorageBuffers,
+                                   basic.limits.maxPerStageDescriptorStorageBuffers);
     return info;
 }
 

@@ -134,6 +134,10 @@ GeometryTables GeometryPacker::build() {
         const HierarchyRoots& object = object_roots[instance.object];
         if (object.is_empty()) continue;
         const glm::dmat4 m = render_from_world_ * instance.world_from_definition;
+        const std::vector<Shape>& shapes = scene_.objects[instance.object].shapes;
+        const bool bounds_media = std::any_of(shapes.begin(), shapes.end(), [](const Shape& s) {
+            return s.media.is_transition();
+        });
         instances.primitives.push_back(
             {.kind_and_shape = KIND_INSTANCE << KIND_SHIFT,
              .light = NONE,
@@ -146,7 +150,7 @@ GeometryTables GeometryPacker::build() {
              .world_from_object = make_affine(m),
              .triangle_root = object.triangles,
              .other_root = object.others,
-             .medium_shift = medium_shift_(instance.world_from_definition)});
+             .medium_shift = bounds_media ? medium_shift_(instance.world_from_definition) : 0});
     }
     if (instances.primitives.empty()) return std::move(tables_);
     instances.kinds = PRIMITIVE_INSTANCES;

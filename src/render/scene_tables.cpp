@@ -262,7 +262,6 @@ void Packer::pack_geometry() {
         light_records.size() - std::min(light_records.size(), emitters_.size()));
     for (std::uint32_t i = 0; i < emitters_.size() && !light_records.empty(); ++i)
         geometry_.primitives[emitters_[i].primitive].light = first_area_light + i;
-    tables_.primitive_count = geometry_.primitives.size();
     tables_.push.primitives = append(geometry_.primitives, "primitives");
     tables_.push.nodes = append(geometry_.nodes, "hierarchy");
     tables_.push.vertex_normals = append(geometry_.vertex_normals, "vertex normals");

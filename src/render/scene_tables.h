@@ -18,7 +18,6 @@ struct SceneTables {
     shared::PushConstants push{};
     /// Bytes by table, for --stats.
     std::vector<std::pair<std::string, std::uint64_t>> bytes;
-    std::size_t primitive_count = 0;
     std::uint32_t primitives = 0; ///< PRIMITIVE_* bits of what there is,
     std::uint32_t emitters = 0;   ///< and of what emits.
 
@@ -27,6 +26,8 @@ struct SceneTables {
         scene.primitives = primitives;
         scene.emitters = emitters;
         scene.voxels_are_half = voxels.is_half;
+        // What emits may come to nothing: grids too large to be lights, triangles without an area.
+        if (push.light_count == 0) scene.lights = 0;
         return scene;
     }
 };

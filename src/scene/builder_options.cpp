@@ -123,6 +123,8 @@ void SceneBuilder::option(const std::string& name, const Token& value,
                                        describe(value), in_quotes(name), expected_value(kind)));
     } else if (key == "seed") {
         scene_.seed = static_cast<std::uint32_t>(*parse_integer(value.text));
+    } else if (value.text == "true" && (key == "forcediffuse" || key == "disablepixeljitter")) {
+        diagnostics_.error(where, fmt::format("option {} is not supported yet", in_quotes(name)));
     } else if (value.text != "false") {
         diagnostics_.warning(where, fmt::format("option {} has no effect", in_quotes(name)));
     }

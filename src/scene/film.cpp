@@ -13,11 +13,17 @@ void read_resolution(Parameters& parameters, Film& film) {
     film.width = parameters.get_integer("xresolution", 1280, require::positive);
     film.height = parameters.get_integer("yresolution", 720, require::positive);
     constexpr std::int64_t most_pixels = (std::int64_t{1} << 31) - 1;
+    constexpr int most_across = 65535; // as --size has it: a path keeps its pixel in 16 bits each
     if (std::int64_t{film.width} * film.height > most_pixels) {
         parameters.diagnostics().error(
             parameters.where(),
             fmt::format("{} x {} are too many pixels (expected fewer than 2^31)", film.width,
                         film.height));
+        film.width = film.height = 1;
+    } else if (std::max(film.width, film.height) > most_across) {
+        parameters.diagnostics().error(
+            parameters.where(), fmt::format("{} x {} pixels (expected at most {} on each side)",
+                                            film.width, film.height, most_across));
         film.width = film.height = 1;
     }
     film.bounds = {0, film.width, 0, film.height};

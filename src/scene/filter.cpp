@@ -35,10 +35,9 @@ double evaluate_filter(const PixelFilter& filter, double radius, double x) {
     case PixelFilter::Kind::gaussian:
         break;
     }
-    const auto gaussian = [&](double d) {
-        return std::exp(-d * d / (2 * filter.sigma * filter.sigma));
-    };
-    return std::max(0.0, gaussian(x) - gaussian(radius));
+    // The Gaussian less its value at the radius; no cancellation however wide it is.
+    const double scale = 1 / (2 * filter.sigma * filter.sigma);
+    return -std::exp(-x * x * scale) * std::expm1((x - radius) * (x + radius) * scale);
 }
 
 FilterTable make_filter_table(const PixelFilter& filter, double radius) {

@@ -57,6 +57,9 @@ std::filesystem::path InputFiles::resolve(const std::string& name,
 
 std::string InputFiles::read(const std::filesystem::path& file) {
     if (++files_ > max_files) cannot_read(file, fmt::format("more than {} files", max_files));
+    std::error_code ignored;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, ignored);
+    counts_ = counted_.insert(whole.empty() ? file : whole).second;
     std::string bytes = read_bytes(file);
     SHA256Update(&digest_->context, reinterpret_cast<const std::uint8_t*>(bytes.data()),
                  bytes.size());
@@ -72,7 +75,7 @@ std::string InputFiles::sha256() const {
 }
 
 void InputFiles::count_bytes(std::uint64_t bytes, const std::filesystem::path& file) {
-    bytes_ += bytes;
+    if (counts_) bytes_ += bytes;
     if (bytes_ > max_bytes_) {
         cannot_read(file,
                     fmt::format("the files of the scene have more than {} bytes", max_bytes_));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace tyndall {
@@ -18,7 +19,7 @@ class InputFiles {
     /// @param main_file  the scene file; names in it and in the files it includes start at its
     /// folder.
     /// @param max_bytes  most bytes that all files may have together, packed and unpacked ones
-    /// counted.
+    /// counted, each file once.
     /// @param on_file    called with each file and its length once it is read; may be empty.
     InputFiles(const std::filesystem::path& main_file, std::uint64_t max_bytes,
                OnFile on_file = {});
@@ -48,6 +49,8 @@ class InputFiles {
     std::uint64_t max_bytes_;
     OnFile on_file_;
     std::uint64_t bytes_ = 0;
+    std::set<std::filesystem::path> counted_;
+    bool counts_ = true; ///< The file that is read now is one that was not read before.
     int files_ = 0;
     std::unique_ptr<Digest> digest_;
 };

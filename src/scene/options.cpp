@@ -113,8 +113,11 @@ PixelFilter read_pixel_filter(const std::string& type, Parameters& parameters) {
         filter.kind = PixelFilter::Kind::triangle;
     } else {
         filter.kind = PixelFilter::Kind::mitchell;
-        filter.b = parameters.get_float("B", 1.0 / 3);
-        filter.c = parameters.get_float("C", 1.0 / 3);
+        filter.b = parameters.get_float("B", 1.0 / 3, require::non_negative);
+        filter.c = parameters.get_float("C", 1.0 / 3, require::non_negative);
+        if (filter.b > 3) // then it is negative in the middle
+            parameters.diagnostics().error(parameters.where(),
+                                           "\"B\" is above 3 (expected 0 to 1)");
     }
     filter.x_radius = parameters.get_float("xradius", radius, require::positive);
     filter.y_radius = parameters.get_float("yradius", radius, require::positive);

@@ -111,6 +111,24 @@ void set_box(GridDensity& density, const VolumeFields& fields) {
     }
 }
 
+/// What the fields say about the medium.
+void set_fields(Parameters& parameters, VolumeFields fields, double emission_scale,
+                Medium& medium) {
+    GridDensity density{.index_from_medium = glm::inverse(fields.density.world_from_index)};
+    set_box(density, fields);
+    const VoxelBox support = find_support(fields.density.grid);
+    const bool is_hot = fields.temperature && !fields.temperature->grid.is_empty();
+    if (is_hot && !are_equal_maps(*fields.temperature, fields.density))
+        fields.temperature->grid = resample(*fields.temperature, fields.density);
+    Grid kelvin = read_temperature(parameters, is_hot ? fields.temperature->grid : Grid{},
+                                   is_hot ? support : VoxelBox{});
+    medium.emission = Rgb(is_hot ? emission_scale : 0);
+    if (is_hot) density.temperature = std::make_shared<const Grid>(std::move(kelvin));
+    density.density = std::make_shared<const Grid>(std::move(fields.density.grid));
+    finish_density(density, medium);
+    medium.density = std::move(density);
+}
+
 } // namespace
 
 void read_volume(Parameters& parameters, Medium& medium, bool is_vdb, InputFiles& files) {
@@ -136,19 +154,11 @@ void read_volume(Parameters& parameters, Medium& medium, bool is_vdb, InputFiles
                                  "dimensions)");
             return;
         }
-    GridDensity density{.index_from_medium = glm::inverse(fields->density.world_from_index)};
-    set_box(density, *fields);
-    const VoxelBox support = find_support(fields->density.grid);
-    const bool is_hot = fields->temperature && !fields->temperature->grid.is_empty();
-    if (is_hot && !are_equal_maps(*fields->temperature, fields->density))
-        fields->temperature->grid = resample(*fields->temperature, fields->density);
-    Grid kelvin = read_temperature(parameters, is_hot ? fields->temperature->grid : Grid{},
-                                   is_hot ? support : VoxelBox{});
-    medium.emission = Rgb(is_hot ? emission_scale : 0);
-    if (is_hot) density.temperature = std::make_shared<const Grid>(std::move(kelvin));
-    density.density = std::make_shared<const Grid>(std::move(fields->density.grid));
-    finish_density(density, medium);
-    medium.density = std::move(density);
+    try {
+        set_fields(parameters, std::move(*fields), emission_scale, medium);
+    } catch (const Error& error) { // more voxels than a grid may have
+        parameters.diagnostics().error(filename->where, error.what());
+    }
 }
 
 } // namespace tyndall

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ std::string family_name(Family family) {
 }
 
 void write_results(const Results& results, const std::filesystem::path& folder) {
-    write_text(folder / "results.json", nlohmann::json(results).dump(1) + '\n');
+    write_text(folder / "results.json", json_text(results, 1) + '\n');
     write_text(folder / "results.csv", csv(results));
 }
 

@@ -23,8 +23,11 @@ class Walk {
         skip(36); // UUID
         metadata();
         const auto grids = take<std::int32_t>();
-        for (std::int32_t i = 0; has_offsets && i < grids; ++i)
-            seek(grid());
+        for (std::int32_t i = 0; has_offsets && i < grids; ++i) {
+            const std::uint64_t begin = at_, next = grid();
+            if (next <= begin) refuse(); // else one entry could stand for 2^31
+            seek(next);
+        }
     }
 
   private:
