@@ -62,9 +62,14 @@ outputs() {
   # What cannot be written is told, and leaves nothing behind.
   expect 2 render "$scenes/slab.pbrt" $small --spp 4 -o a.docx
   says a.docx
-  expect 1 render "$scenes/slab.pbrt" $small --spp 4 -o no/such/folder/a.exr
+  expect 1 render "$scenes/slab.pbrt" $small --spp 1000000000 -o b.exr -o no/such/folder/a.exr # at once
   says no/such/folder
   leaves_only a.exr a.json a.png
+  # A link stays one.
+  ln -s a.exr latest.exr
+  expect 0 render "$scenes/slab.pbrt" $small --spp 2 -o latest.exr
+  [ -L latest.exr ] || fail "the link was replaced"
+  rm latest.exr
 }
 
 orders() {

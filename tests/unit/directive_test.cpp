@@ -338,6 +338,9 @@ TEST(Options, OptionKnowsPbrtsNames) {
                                      "Option \"msereferenceimage\" \"a.exr\" WorldBegin"),
               (Lines{"scene.pbrt:1:1: warning: option \"pixel-Stats\" has no effect",
                      "scene.pbrt:2:1: warning: option \"msereferenceimage\" has no effect"}));
+    EXPECT_EQ(option_errors("Option \"forcediffuse\" true"),
+              Lines{"scene.pbrt:1:1: error: option \"forcediffuse\" is not supported yet"});
+    EXPECT_TRUE(option_errors("Option \"forcediffuse\" false").empty());
     EXPECT_EQ(option_errors("Option \"colour\" 1"),
               Lines{"scene.pbrt:1:1: error: unknown option \"colour\""});
     EXPECT_EQ(

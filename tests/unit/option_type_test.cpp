@@ -106,6 +106,8 @@ TEST(FilmType, ChecksItsParameters) {
     EXPECT_EQ(
         option_error("Film \"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 32768"),
         "65536 x 32768 are too many pixels (expected fewer than 2^31)");
+    EXPECT_EQ(option_error("Film \"rgb\" \"integer xresolution\" 70000 \"integer yresolution\" 9"),
+              "70000 x 9 pixels (expected at most 65535 on each side)");
     EXPECT_EQ(option_error("Film \"rgb\" \"integer pixelbounds\" [ 5 5 0 9 ]"),
               "no pixel is left to render (expected bounds with an area)");
     EXPECT_EQ(option_error("Film \"rgb\" \"float cropwindow\" [ 0 1 ]"),
