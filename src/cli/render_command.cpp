@@ -210,8 +210,9 @@ void Job::write_images(const Image& picture) {
             const std::size_t clamped =
                 write_image(output, picture, attributes, {.half = scene_.film.half_float});
             if (clamped > 0)
-                std::fprintf(stderr, "%s: warning: %zu values were cut to 65504, the most that "
-                                     "half floats have (savefp16)\n",
+                std::fprintf(stderr,
+                             "%s: warning: %zu values were cut to 65504, the most that "
+                             "half floats have (savefp16)\n",
                              output.c_str(), clamped);
         } catch (const Error& error) {
             if (!failure) failure = error;
@@ -277,7 +278,9 @@ int Job::run() {
     write_images(report_.film);
     if (!options_.aovs.empty() && report_.stopped_by != "signal") write_layers();
     if (!options_.quiet) std::fputs(closing_text(scene_, report_).c_str(), stderr);
-    std::fputs(health_text(engine_->health(), replay_command(options_.scene, options_.device)).c_str(), stderr);
+    std::fputs(
+        health_text(engine_->health(), replay_command(options_.scene, options_.device)).c_str(),
+        stderr);
     if (!options_.stats.empty()) write_stats(options_.stats, scene_, *engine_, report_);
     if (engine_->validation_messages() > 0)
         throw Error(ExitStatus::failed, fmt::format("the validation layer had {} messages",
