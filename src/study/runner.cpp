@@ -22,14 +22,14 @@ Level measure_level(const Runs& runs, const Reference& reference, std::uint32_t 
 }
 
 std::string too_slow(const TechniqueResult& r, const Share& share) {
-    return fmt::format("preparing took {:.2g} s and a first sample of each pixel {:.2g} s; {} of "
-                       "them do not fit into its share of {:.2g} s",
-                       r.build_seconds + r.compile_seconds, r.first_seconds, kRuns, share.seconds);
+    return fmt::format("a first sample of each pixel took {:.2g} s; {} of them do not fit into its "
+                       "share of {:.2g} s",
+                       r.first_seconds, kRuns, share.seconds);
 }
 
-/// Doubles the samples as long as there is time; begins in any case, unless it gives up where not
-/// even one sample fits.
-Outcome measure_levels(Runs& runs, const Reference& reference, double seconds, bool gives_up,
+/// Doubles the samples as long as there is time; begins in any case, but gives up if even one
+/// sample takes longer than `first_seconds`.
+Outcome measure_levels(Runs& runs, const Reference& reference, double seconds, double first_seconds,
                        std::vector<Level>& levels) {
     const Clock::time_point start = Clock::now();
     double next = 0; // seconds of the next slice, which has as many samples as there are now
@@ -38,8 +38,8 @@ Outcome measure_levels(Runs& runs, const Reference& reference, double seconds, b
         const std::uint32_t before = runs.samples();
         if (before > 0 && next > left) break;
         const Clock::time_point slice_start = Clock::now();
-        const bool may_give_up = before == 0 && gives_up;
-        const Outcome outcome = runs.extend(range::runs, samples, may_give_up ? left : 1e30);
+        const Outcome outcome =
+            runs.extend(range::runs, samples, before == 0 ? first_seconds : 1e30);
         if (outcome != Outcome::done) return outcome;
         levels.push_back(measure_level(runs, reference, samples - before));
         next = seconds_since(slice_start) * (before == 0 ? 1 : 2);
@@ -97,7 +97,7 @@ Measurement Runner::measure(const Technique& technique, const Reference& referen
     if (outcome == Outcome::done)
         outcome =
             measure_levels(runs, reference, share.seconds - share.equal_time - seconds_since(start),
-                           r.name != kBaseline, r.levels);
+                           r.name == kBaseline ? 1e30 : share.seconds, r.levels);
     m.is_interrupted = outcome == Outcome::stopped;
     if (r.is_measured()) {
         const std::vector<Picture> pictures = runs.pictures();

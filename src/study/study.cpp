@@ -112,9 +112,9 @@ double Study::expected_seconds(const Technique& technique) const {
         const double steps = technique.parameter / t.parameter;
         if (technique.family != Family::marching || t.series != technique.series || steps <= 1)
             continue;
-        if (!t.is_measured())
-            expected = t.first_seconds * steps;
-        else if (t.parameter >= 16) // with fewer, the rest of the path counts as much
+        if (!t.is_measured() && t.first_seconds > 0) expected = t.first_seconds * steps;
+        // With fewer, the rest of the path counts as much.
+        if (t.is_measured() && t.parameter >= 16)
             expected = t.last().clock_seconds / t.last().samples * steps;
     }
     return expected;

@@ -5,6 +5,7 @@
 #include "device/test_scenes.h"
 #include "stats/batch_film.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tyndall::device_test {
@@ -37,9 +38,28 @@ Scene lamp_in_fog() {
     return scene;
 }
 
-/// A scene with its image as good as known: of many times the samples, from another seed.
+/// An absorbing box of this optical thickness before a sky of radiance 1: exp(-thickness), by
+/// paths that are absorbed or not.
+Scene box_of_tosses(double thickness) {
+    Scene scene = empty_scene(16, 0.1);
+    scene.integrator.absorption = Integrator::Absorption::analog;
+    add_shape(scene, box_mesh({-1, -1, 1}, {1, 1, 2}),
+              {.inside = add_medium(scene, Rgb(thickness), Rgb(0))});
+    add_infinite(scene);
+    return scene;
+}
+
+/// A scene with its image as it should be.
 class Subject {
   public:
+    /// The same radiance everywhere.
+    Subject(const Scene& scene, double radiance) : renderer(context(), scene) {
+        renderer.render(0, 1);
+        truth_ = renderer.read_film();
+        std::ranges::fill(truth_.pixels, static_cast<float>(radiance));
+        square_ = double(truth_.pixels.size() / 2) * radiance * radiance;
+    }
+    /// As good as known, by many times the samples from another seed.
     Subject(const Scene& scene, std::uint32_t reference_samples) : renderer(context(), scene) {
         renderer.set_seed(0xABCDEF);
         renderer.render(0, reference_samples);
@@ -112,6 +132,9 @@ class ErrorTest : public DeviceTest {
   protected:
     static void expect_coverage(const Scene& scene, std::uint32_t samples, int seeds) {
         Subject subject(scene, 100 * samples);
+        expect_coverage(subject, samples, seeds);
+    }
+    static void expect_coverage(Subject& subject, std::uint32_t samples, int seeds) {
         const Coverage found = coverage(subject, seeds, samples);
         EXPECT_GT(found.stated, 0.90);
         EXPECT_LT(found.stated, 0.99);
@@ -135,6 +158,17 @@ TEST_F(ErrorTest, CoversAsOftenAsItSaysForward) {
 
 TEST_F(ErrorTest, CoversAsOftenAsItSaysHeavyTailed) {
     expect_coverage(lamp_in_fog(), 32, 300);
+}
+
+/// Against closed forms.
+TEST_F(ErrorTest, CoversAsOftenAsItSaysThinAndThick) {
+    for (const double thickness : {0.1, 3.0}) {
+        Subject subject(box_of_tosses(thickness), std::exp(-thickness));
+        expect_coverage(subject, 32, 300);
+        // The control: held against another picture, errors are others.
+        Subject wrong(box_of_tosses(thickness), 0.5 * std::exp(-thickness));
+        EXPECT_LT(coverage(wrong, 20, 256).stated, 0.1) << "no teeth";
+    }
 }
 
 /// What renders foresee at their looks: how often, how often that comes true within a quarter, and
