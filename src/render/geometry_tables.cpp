@@ -135,9 +135,8 @@ GeometryTables GeometryPacker::build() {
         if (object.is_empty()) continue;
         const glm::dmat4 m = render_from_world_ * instance.world_from_definition;
         const std::vector<Shape>& shapes = scene_.objects[instance.object].shapes;
-        const bool bounds_media = std::any_of(shapes.begin(), shapes.end(), [](const Shape& s) {
-            return s.media.is_transition();
-        });
+        const bool bounds_media = std::any_of(
+            shapes.begin(), shapes.end(), [](const Shape& s) { return s.media.is_transition(); });
         instances.primitives.push_back(
             {.kind_and_shape = KIND_INSTANCE << KIND_SHIFT,
              .light = NONE,
