@@ -53,8 +53,9 @@ struct ImageAttributes {
 };
 
 struct WriteOptions {
-    bool half =
-        false; ///< .exr: 16-bit floats; finite values beyond +-65504 are written as +-65504.
+    /// .exr: 16-bit floats, but for variance.*; finite values beyond +-65504 are written as
+    /// +-65504.
+    bool half = false;
 };
 
 /// Writes an image so that the file either has all of it or is what it was before: into a temporary

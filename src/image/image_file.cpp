@@ -22,8 +22,8 @@ enum class Format { exr, hdr, tiff, png };
 /// How an image becomes a file.
 struct Encoding {
     Format format;
-    bool half;
     std::vector<std::size_t> channels; ///< Of the image, in the order of the file.
+    std::vector<bool> is_half;         ///< Of each of them; empty if none is.
 };
 
 [[noreturn]] void fail_write(const std::filesystem::path& path, const std::string& reason) {
@@ -73,11 +73,14 @@ float linear_from_srgb(float value) {
 
 Encoding choose_encoding(const std::filesystem::path& path, const Image& image,
                          WriteOptions options) {
-    Encoding encoding{format_of(path), false, {}};
+    Encoding encoding{format_of(path), {}, {}};
     if (encoding.format == Format::exr) {
-        encoding.half = options.half;
-        for (std::size_t c = 0; c < image.channels.size(); ++c)
+        for (std::size_t c = 0; c < image.channels.size(); ++c) {
             encoding.channels.push_back(c);
+            // Variances are squares: half floats have no room for those of small values.
+            if (options.half)
+                encoding.is_half.push_back(image.channels[c].rfind("variance.", 0) != 0);
+        }
         return encoding;
     }
     for (const char* name : {"R", "G", "B"}) {
@@ -103,12 +106,14 @@ void set_attributes(OIIO::ImageSpec& spec, const ImageAttributes& attributes) {
 
 OIIO::ImageSpec make_spec(const Image& image, const Encoding& encoding,
                           const ImageAttributes& attributes) {
-    OIIO::TypeDesc type = encoding.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-    if (encoding.format == Format::png) type = OIIO::TypeDesc::UINT8;
+    const bool is_png = encoding.format == Format::png;
+    const OIIO::TypeDesc type = is_png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
     const std::size_t channel_count = encoding.channels.size();
     OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channel_count), type);
     for (std::size_t c = 0; c < channel_count; ++c)
         spec.channelnames[c] = image.channels[encoding.channels[c]];
+    for (const bool is_half : encoding.is_half)
+        spec.channelformats.push_back(is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("Software", "Tyndall");
     spec.attribute("oiio:ColorSpace", encoding.format == Format::png ? "sRGB" : "Linear");
     set_attributes(spec, attributes);
@@ -133,10 +138,13 @@ std::vector<float> copy_rows(const Image& image, const Encoding& encoding, int y
 /// Brings values into the range of the file. Returns how many exceeded that of half.
 std::size_t fit_to_format(std::vector<float>& values, const Encoding& encoding) {
     std::size_t clamped = 0;
-    for (float& value : values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        float& value = values[i];
+        const bool is_half =
+            !encoding.is_half.empty() && encoding.is_half[i % encoding.is_half.size()];
         if (encoding.format == Format::png) // A NaN becomes black: comparisons with it are false.
             value = value > 0 ? srgb_from_linear(std::min(value, 1.0f)) : 0.0f;
-        if (encoding.half && std::isfinite(value) && std::abs(value) > largest_half) {
+        if (is_half && std::isfinite(value) && std::abs(value) > largest_half) {
             value = std::copysign(largest_half, value);
             ++clamped;
         }

@@ -103,6 +103,17 @@ TEST_F(ImageFile, HalfRoundsAndCountsWhatItClamps) {
     EXPECT_EQ(write_image(path("b.exr"), image), 0u);
 }
 
+TEST_F(ImageFile, HalfLeavesVariancesWhole) {
+    Image image(1, 1, {"R", "G", "B", "variance.R"});
+    image.pixels = {1e-9f, 0.5f, 1, 1e-9f};
+    EXPECT_EQ(write_image(path("a.exr"), image, {}, {.half = true}), 0u);
+    const Image back = read_image(path("a.exr"));
+    const auto value = [&](const char* name) { return back.at(0, 0, *back.channel_index(name)); };
+    EXPECT_EQ(value("variance.R"), 1e-9f);
+    EXPECT_EQ(value("R"), 0) << "no teeth";
+    EXPECT_EQ(value("G"), 0.5f);
+}
+
 TEST_F(ImageFile, TiffIsExactAndHdrHasEightBits) {
     const Image image = gradient(40, 70, six_channels());
     for (const auto& [name, tolerance] :
