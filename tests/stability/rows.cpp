@@ -141,6 +141,15 @@ Scene planet_from_afar() {
     return scene;
 }
 
+/// Layers without an end, seen along them.
+Scene along_the_horizon() {
+    Scene scene = empty_scene(8, 1e-3);
+    add_infinite(scene);
+    scene.camera.medium = add_medium(scene, Rgb(1e-3), Rgb(0));
+    scene.media[0].density = ExponentialDensity{};
+    return scene;
+}
+
 /// The camera stands in the boundary of an absorbing box, in its medium.
 Scene camera_on_a_boundary() {
     Scene scene = box(Rgb(2), Rgb(0));
@@ -283,6 +292,7 @@ std::vector<Case> grids() {
         {"one voxel", one_voxel(), 4096, Rgb(kDepth2)},
         // The depth of a cell is 2e-5, of which each subtraction loses 2^-24 of a flight's at most.
         {"100000 cells", long_row_of_cells(), 64, Rgb(kDepth2), 100'000 * 2 * 0x1p-24},
+        {"along the horizon", along_the_horizon(), 1, Rgb(0)},
         {"planet from afar", planet_from_afar(), 16, Rgb(1 - std::numbers::pi / 6.25)},
         // 8 deep; tracked by null collisions, which leave all light or none.
         {"rays in planes of voxels", in_voxel_planes(one, 0.1, cube), 4096, Rgb(std::exp(-0.8))},
