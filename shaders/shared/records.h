@@ -75,11 +75,12 @@ struct CameraRecord {
 };
 TYNDALL_CONSTANT uint CAMERA_TEXELS = 7u;
 
-/// How long the steps of a march are. Follows the camera, which opens the scene buffer.
+/// How long the steps of a march are, and the unit of errors. Follows the camera, which opens the
+/// scene buffer.
 struct MarchRecord {
     uint steps;      ///< Of a march through one segment in one medium, ...
     float step_size; ///< ... or, if > 0, their length at most.
-    uint pad0;
+    float film_unit; ///< Deviations in the film are times this (render/film_unit.h).
     uint pad1;
 };
 TYNDALL_CONSTANT uint MARCH_TEXEL = CAMERA_TEXELS;

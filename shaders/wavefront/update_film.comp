@@ -49,6 +49,9 @@ uint rendered_first_sample(uint batch) {
     return clamp(batch_first_sample(batch), push.first_sample, push.end_sample);
 }
 
+/// Of what is squared, so that it stays in range.
+float film_unit = uintBitsToFloat(fetch_scene(MARCH_TEXEL).z);
+
 /// Adds a batch to the pixel, and its contrast to the errors.
 void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
     const uint first = rendered_first_sample(batch);
@@ -61,7 +64,7 @@ void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors
     if (before > 0.0 && all.w >= 0.5 * before) {
         // Welford's update by a batch of `count` samples after `before` samples, with the residual
         // of the ratio estimator sum(w L) / sum(w): for positive filters it is Welford's exactly.
-        d = value.xyz - all.xyz * (value.w / all.w);
+        d = (value.xyz - all.xyz * (value.w / all.w)) * film_unit;
         const float scale = before / (count * (before + count));
         const float weight = contrast_weight(batch, count);
         const vec3 squares = d * d * scale;
@@ -112,7 +115,7 @@ void main() {
         }
         store_pixel(at, film);
         if (film.sum.w == 0.0) continue;
-        const vec3 mean = film.sum.xyz / film.sum.w;
+        const vec3 mean = film.sum.xyz / film.sum.w * film_unit;
         const float weighted = film.residual.w;
         pixel_errors =
             vec4(pixel_errors.x + dot(mean, mean),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace tyndall {
@@ -204,6 +205,8 @@ std::vector<glm::dvec4> Renderer::read_sums() {
 
 Image Renderer::read_film() {
     const auto width = static_cast<int>(tables_.push.width);
+    const double unit = tables_.film_unit * tables_.film_unit; // of squares
+    constexpr double most = std::numeric_limits<float>::max();
     Image image(width, static_cast<int>(tables_.push.pixel_count) / width,
                 {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
     each_film_pixel([&](std::size_t pixel, const glm::vec4* film) {
@@ -215,8 +218,8 @@ Image Renderer::read_film() {
         for (int c = 0; c < 3; ++c) {
             image.pixels[pixel * 6 + c] = static_cast<float>(sum[c] / sum.w);
             if (divisor > 0)
-                image.pixels[pixel * 6 + 3 + c] =
-                    static_cast<float>(film[shared::FILM_RESIDUAL][c] / divisor);
+                image.pixels[pixel * 6 + 3 + c] = static_cast<float>(
+                    std::min(film[shared::FILM_RESIDUAL][c] / divisor / unit, most));
         }
     });
     measure_error();

@@ -60,7 +60,8 @@ class Renderer {
                          const KeepGoing& keep_going = {});
 
     /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G
-    /// variance.B; the variance is that of the mean, 0 while there are fewer than two batches.
+    /// variance.B; the variance is that of the mean, 0 while there are fewer than two batches, and
+    /// the largest float where it is beyond that.
     Image read_film();
     /// Per pixel: sum of filter weight * radiance (xyz) and of filter weights (w).
     std::vector<glm::dvec4> read_sums();

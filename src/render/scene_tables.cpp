@@ -1,6 +1,7 @@
 #include "render/scene_tables.h"
 
 #include "core/error.h"
+#include "render/film_unit.h"
 #include "render/geometry_tables.h"
 #include "render/light_table.h"
 #include "render/primitives.h"
@@ -40,6 +41,7 @@ class Packer {
     Packer(const Scene& scene, const Effects& effects)
         : scene_(scene), effects_(effects), origin_(scene.camera.world_from_camera[3]) {
         render_from_world_[3] = glm::dvec4(-origin_, 1);
+        tables_.film_unit = film_unit(scene);
     }
     SceneTables pack();
 
@@ -127,7 +129,8 @@ CameraRecord Packer::camera() const {
 MarchRecord Packer::march() const {
     const Integrator& integrator = scene_.integrator;
     return {.steps = static_cast<std::uint32_t>(integrator.steps),
-            .step_size = static_cast<float>(integrator.step_size)};
+            .step_size = static_cast<float>(integrator.step_size),
+            .film_unit = static_cast<float>(tables_.film_unit)};
 }
 
 std::vector<glm::vec4> Packer::filter_table() const {

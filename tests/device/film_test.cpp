@@ -147,5 +147,41 @@ TEST_F(FilmTest, VarianceIsThatOfTheMean) {
     EXPECT_GT(std::abs(found / (stated / 4) - 1) / error, reject); // errors half as large
 }
 
+/// By powers of two, pictures of 1e-30 and of 1e30 are those of 1, and their errors are known as
+/// well, though squares of such numbers are none.
+TEST_F(FilmTest, ErrorsAreToldOfAnyRadiance) {
+    Scene scene = plain_scene();
+    scene.lights.clear();
+    const auto image = [&](const Rgb& sky, double& error) {
+        scene.lights.clear();
+        add_infinite(scene, sky);
+        Renderer renderer(context(), scene);
+        renderer.render(0, 64);
+        const Image film = renderer.read_film();
+        error = renderer.error() ? renderer.error()->relative_rmse : 0;
+        for (const float value : film.pixels)
+            EXPECT_TRUE(std::isfinite(value));
+        return colors_of(film);
+    };
+    double plain_error, error;
+    const std::vector<Rgb> plain = image(Rgb(1), plain_error);
+    ASSERT_GT(plain_error, 0);
+    for (const double sky : {0x1p-100, 0x1p100}) {
+        std::vector<Rgb> pixels = image(Rgb(sky), error);
+        for (Rgb& pixel : pixels)
+            pixel /= sky;
+        EXPECT_EQ(pixels, plain);
+        EXPECT_EQ(error, plain_error);
+    }
+    // Side by side, the error is that of what is bright.
+    const std::vector<Rgb> pixels = image({0x1p100, 1, 0x1p-100}, error);
+    const auto pixel = plain.size() / 2;
+    EXPECT_EQ(pixels[pixel] * Rgb(0x1p-100, 1, 0x1p100), plain[pixel]);
+    image({1, 0, 0}, plain_error);
+    EXPECT_NEAR(error, plain_error, 1e-6 * plain_error);
+    image({0, 0, 1}, plain_error); // the control: another channel has another error
+    EXPECT_GT(std::abs(error - plain_error), 1e-3 * plain_error);
+}
+
 } // namespace
 } // namespace tyndall::device_test
