@@ -7,8 +7,9 @@
 #include "support/materials.h"
 #include "support/volumes.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <ostream>
 
 namespace tyndall::stability {
 namespace {
@@ -20,9 +21,12 @@ using selftest::Lit;
 using selftest::slab_scene;
 
 struct Kind {
-    const char* name;
+    const char* name; ///< Letters, digits and spaces.
     Scene scene;
 };
+void PrintTo(const Kind& kind, std::ostream* to) {
+    *to << kind.name;
+}
 
 /// A ball of fog with another, denser one inside, and a third in that.
 Scene nested_media() {
@@ -90,21 +94,23 @@ std::vector<Kind> kinds() {
 
 class LongStability : public DeviceTest {};
 
-TEST_F(LongStability, NoneOf1e8PathsOfEightKindsGoesWrong) {
-    for (const Kind& kind : kinds()) {
-        Renderer renderer(context(), kind.scene);
-        const std::uint32_t samples = 100'000'000 / (16 * 16) + 1;
-        EXPECT_EQ(renderer.render(0, samples), samples);
-        std::printf("%s: %.3g paths", kind.name, 256.0 * samples);
-        for (std::size_t i = 0; i < kHealthNames.size(); ++i) {
-            std::printf(", %s %llu", kHealthNames[i],
-                        static_cast<unsigned long long>(renderer.health()[i]));
-            EXPECT_EQ(renderer.health()[i], 0) << kind.name << ": " << kHealthNames[i];
-        }
-        std::printf("\n");
-        std::fflush(stdout);
-    }
+class LongPaths : public DeviceTest, public testing::WithParamInterface<Kind> {};
+
+constexpr double kPaths = 1e8;
+
+TEST_P(LongPaths, DoNotGoWrong) {
+    Renderer renderer(context(), GetParam().scene);
+    const auto samples = static_cast<std::uint32_t>(kPaths / (16 * 16)) + 1;
+    EXPECT_EQ(renderer.render(0, samples), samples);
+    for (std::size_t i = 0; i < kHealthNames.size(); ++i)
+        EXPECT_EQ(renderer.health()[i], 0) << kHealthNames[i];
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LongPaths, testing::ValuesIn(kinds()), [](const auto& info) {
+    std::string name = info.param.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+});
 
 TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
     for (const selftest::Case& c : rows()) {

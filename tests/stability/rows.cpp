@@ -114,6 +114,19 @@ Scene one_voxel() {
     return scene;
 }
 
+/// A density that rises along the rays, which run against the order of cells: to no bound but its
+/// own cell's is it held.
+Scene ramp() {
+    Scene scene = empty_scene(8, 0.5);
+    scene.camera.world_from_camera = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0});
+    add_infinite(scene);
+    const int medium = add_medium(scene, Rgb(4), Rgb(0));
+    scene.media[0].density = Lattice{{-1, -1, 0}, {1, 1, 1}, {2, 2, 33}}.density(
+        [](const glm::ivec3& v) { return 1 - v.z / 32.0; }, 1);
+    add_shape(scene, full_sphere(3), {.inside = medium});
+    return scene;
+}
+
 /// 1e5 voxels in a row, each of them a cell with a majorant of its own.
 Scene long_row_of_cells() {
     constexpr int count = 100'000;
@@ -290,6 +303,7 @@ std::vector<Case> grids() {
         {"hot voxel", hot_voxel(), 1, Rgb(1), 5e-5},
         {"grid of zeros", in_voxel_planes(zero, 1e6, cube), 1, Rgb(1)},
         {"one voxel", one_voxel(), 4096, Rgb(kDepth2)},
+        {"ramp", ramp(), 4096, Rgb(kDepth2)},
         // The depth of a cell is 2e-5, of which each subtraction loses 2^-24 of a flight's at most.
         {"100000 cells", long_row_of_cells(), 64, Rgb(kDepth2), 100'000 * 2 * 0x1p-24},
         {"along the horizon", along_the_horizon(), 1, Rgb(0)},
