@@ -106,11 +106,12 @@ TEST_P(LongPaths, DoNotGoWrong) {
         EXPECT_EQ(renderer.health()[i], 0) << kHealthNames[i];
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, LongPaths, testing::ValuesIn(kinds()), [](const auto& info) {
+const auto name_of = [](const auto& info) {
     std::string name = info.param.name;
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;
-});
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, LongPaths, testing::ValuesIn(kinds()), name_of);
 
 TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
     for (const selftest::Case& c : rows()) {
