@@ -18,7 +18,7 @@ struct SceneTables {
     shared::PushConstants push{};
     /// Bytes by table, for --stats.
     std::vector<std::pair<std::string, std::uint64_t>> bytes;
-    double film_unit = 1; ///< See film_unit.h.
+    double film_unit = 1;         ///< See film_unit.h.
     std::uint32_t primitives = 0; ///< PRIMITIVE_* bits of what there is,
     std::uint32_t emitters = 0;   ///< and of what emits.
 
