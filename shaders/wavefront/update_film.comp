@@ -6,13 +6,17 @@
 //
 //   batches -> film
 
-/// Adds to a sum what rounding keeps out of it in `compensation` (Neumaier 1974).
+/// Adds to a sum what rounding keeps out of it in `compensation` (Neumaier 1974), which is kept
+/// below the rounding of the sum (Dekker 1971): it would lose its own additions after 2^24 samples.
 void add_compensated(inout vec4 sum, inout vec4 compensation, vec4 value) {
     precise vec4 total = sum + value;
     precise vec4 lost_of_value = (sum - total) + value;
     precise vec4 lost_of_sum = (value - total) + sum;
     compensation += mix(lost_of_sum, lost_of_value, greaterThanEqual(abs(sum), abs(value)));
-    sum = total;
+    precise vec4 whole = total + compensation;
+    precise vec4 rest = compensation - (whole - total);
+    sum = whole;
+    compensation = rest;
 }
 
 /// Root of the sum of squares, which may be out of range.

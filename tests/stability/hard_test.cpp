@@ -51,6 +51,15 @@ TEST_F(Samples, LargeIndicesAreRendered) {
     EXPECT_NE(device_test::render_sums(scene, last - count - 1, last)[0], sums[0]) << "no teeth";
 }
 
+/// An average of 2^26 samples into one pixel converges on, where plain sums in float32 have come to
+/// stand long before.
+TEST_F(Samples, OnePixelTakes2To26Samples) {
+    Scene scene = empty_scene(1);
+    add_infinite(scene, Rgb(0.1));
+    const Estimate mean = mean_of(scene, 1u << 26);
+    EXPECT_NEAR(mean.mean.g, 0.1, 1e-7);
+}
+
 class Flights : public DeviceTest {};
 
 /// At an optical depth of 1e-8 the probability of a collision is 1e-8: 43 of the 2^32 words, those

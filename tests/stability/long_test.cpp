@@ -1,6 +1,5 @@
 // The longer tier (label "long"): scenes of eight kinds over 1e8 paths each, of which none may go
-// wrong; the rows of the table a hundred times deeper; 2^26 samples of one pixel; 1e9 rays in a
-// closed mesh.
+// wrong; the rows of the table a hundred times deeper; 1e9 rays in a closed mesh.
 #include "device/device_test.h"
 #include "device/test_scenes.h"
 #include "stability/rows.h"
@@ -122,15 +121,6 @@ TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
                 << c.name << ", channel " << k << ": " << mean.mean[k] << " +- "
                 << mean.standard_error[k];
     }
-}
-
-/// An average of 2^26 samples into one pixel converges on, where plain sums in float32 have come to
-/// stand long before.
-TEST_F(LongStability, OnePixelTakes2To26Samples) {
-    Scene scene = empty_scene(1);
-    add_infinite(scene, Rgb(0.1));
-    const Estimate mean = device_test::mean_of(scene, 1u << 26);
-    EXPECT_NEAR(mean.mean.g, 0.1, 1e-7);
 }
 
 TEST_F(LongStability, ABillionRaysStayInAClosedMesh) {
