@@ -17,7 +17,7 @@ void camera_ray(CameraRecord camera, vec2 film, vec2 lens, out vec3 origin, out 
         origin += aperture;
         direction -= aperture * camera.inverse_focal_distance;
     }
-    direction = normalize(direction);
+    direction *= inversesqrt(dot(direction, direction));
 }
 
 /// Offset from the pixel's centre of a triangle filter of radius r, drawn by inversion.

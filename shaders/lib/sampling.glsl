@@ -34,7 +34,7 @@ float exponential_variate(uint word) {
     const int bits = floatBitsToInt(v);
     const int e = (bits - 0x3F3504F3) >> 23;
     const float m = intBitsToFloat(bits - (e << 23));
-    const float z = tail ? (1.0 - m) / (1.0 + m) : complement / (2.0 - complement);
+    const float z = (tail ? 1.0 - m : complement) / (tail ? 1.0 + m : 2.0 - complement);
     const float z2 = z * z;
     const float series =
         1.0 + z2 * (0.333333333 + z2 * (0.2 + z2 * (0.142857143 + z2 * 0.111111111)));
@@ -67,7 +67,9 @@ vec3 deflect(vec3 axis, float cos_theta, float sin_theta, float u) {
     vec3 s, t;
     make_frame(axis, s, t);
     const vec2 sc = sin_cos_turns(u) * sin_theta;
-    return normalize(axis * cos_theta + s * sc.y + t * sc.x);
+    const vec3 d = axis * cos_theta + s * sc.y + t * sc.x;
+    // Of unit length but for rounding, which must not add up: one step of Newton's iteration.
+    return d * (1.5 - 0.5 * dot(d, d));
 }
 
 /// Uniform point of the unit disk (Shirley and Chiu 1997), as pbrt maps it.

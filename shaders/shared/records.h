@@ -241,7 +241,7 @@ struct PushConstants {
     uint end_sample;
     uint first_batch; ///< Batch of ticket 0.
     uint batch_count; ///< Batches of this epoch: tickets 0 ... batch_count * pixel_count - 1.
-    uint window;      ///< Batches that may be in flight at once.
+    uint window;      ///< Batches that may be in flight at once: a power of two.
     uint filter_table;
     uint media;
     uint shapes;

@@ -34,7 +34,8 @@ void main() {
     if (p.status == STATUS_ENDED && !finish_sample(p, camera)) report_path(p, camera);
     if (needs_work(p)) take_work(p);
     if (p.status == STATUS_ENDED) {
-        begin_sample(p, camera);
+        p.event = 0u;
+        begin_sample(p, camera, draw(p, BLOCK_PATH));
         store_direction(slot, p);
         store_throughput(slot, p);
         store_radiance(slot, p);

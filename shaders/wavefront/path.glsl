@@ -124,10 +124,9 @@ uvec4 draw(Path p, uint block) {
     return random_block(seed, p.stream, p.path_sample, p.event, block);
 }
 
-/// Starts the path of the present sample at the camera.
-void begin_sample(inout Path p, CameraRecord camera) {
+/// Starts the path of the present sample at the camera, by the words of event 0.
+void begin_sample(inout Path p, CameraRecord camera, uvec4 words) {
     p.event = 0u;
-    const uvec4 words = draw(p, BLOCK_PATH);
     const float u = unit_float(words.x), v = unit_float(words.y);
     const vec2 radius = vec2(camera.filter_x_radius, camera.filter_y_radius);
     vec2 offset;
@@ -202,17 +201,29 @@ void report_path(Path p, CameraRecord camera) {
     report_mishaps(p.xy, p.path_sample - 1u, p.throughput);
 }
 
+/// n / d and the remainder, exactly, for n below 2^31 and d below 2^30: by floats, because CPU
+/// drivers divide integers one lane at a time.
+uint divide(uint n, uint d, out uint remainder) {
+    const float inverse = 1.0 / float(d);
+    uint quotient = uint(float(n) * inverse);                             // off by up to 2^9
+    quotient += uint(int(floor(float(int(n - quotient * d)) * inverse))); // off by up to 1
+    const int rest = int(n - quotient * d);
+    const int correction = rest < 0 ? -1 : rest >= int(d) ? 1 : 0;
+    remainder = uint(rest - correction * int(d));
+    return quotient + uint(correction);
+}
+
 /// Sets the path to the first sample of its ticket's batch, if the ticket is due.
 void start_ticket(inout Path p) {
     if (p.ticket >= control.ticket_limit) {
         p.status = STATUS_WAITING;
         return;
     }
-    const uint batch = p.ticket / push.pixel_count;
-    p.pixel = p.ticket - batch * push.pixel_count;
-    p.window_slot = batch % push.window;
-    const uint row = p.pixel / push.width;
-    p.xy = uvec2(push.x0 + p.pixel - row * push.width, push.y0 + row);
+    const uint batch = divide(p.ticket, push.pixel_count, p.pixel);
+    p.window_slot = batch & (push.window - 1u);
+    uint column;
+    const uint row = divide(p.pixel, push.width, column);
+    p.xy = uvec2(push.x0 + column, push.y0 + row);
     p.stream = p.xy.y * push.full_width + p.xy.x;
     p.path_sample = max(push.first_sample, batch_first_sample(push.first_batch + batch));
     p.batch_end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));

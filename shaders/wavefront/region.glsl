@@ -8,10 +8,11 @@
 
 RegionRecord region; // loaded once a kernel, by the stages that use it
 
-/// Distances at which the line enters and leaves the region; false if it misses.
+/// Distances at which the line enters and leaves the region; false if it misses. (A line that runs
+/// along an axis exactly within an upper face of a box misses it.)
 bool intersect_region(vec3 origin, vec3 direction, out float near, out float far) {
     if (geometry == GEOMETRY_BOX) {
-        const vec3 inverse = 1.0 / direction;
+        const vec3 inverse = 1.0 / mix(direction, vec3(1e-30), equal(direction, vec3(0)));
         const vec3 a = (region.lower - origin) * inverse;
         const vec3 b = (region.upper - origin) * inverse;
         const vec3 entry = min(a, b), exit = max(a, b);
@@ -25,13 +26,6 @@ bool intersect_region(vec3 origin, vec3 direction, out float near, out float far
 
 /// Distance to the boundary from inside (or, by rounding, from next to it).
 float region_exit(vec3 origin, vec3 direction) {
-    if (geometry == GEOMETRY_BOX) {
-        // A component of 0 gives an infinite distance, unless the origin is on that very plane: the
-        // selection keeps 0 * inf out.
-        const vec3 wall = mix(region.upper, region.lower, lessThan(direction, vec3(0)));
-        const vec3 t = mix((wall - origin) / direction, vec3(INFINITY), equal(direction, vec3(0)));
-        return max(0.0, min(t.x, min(t.y, t.z)));
-    }
     float near, far;
     if (!intersect_region(origin, direction, near, far)) return 0.0;
     return max(0.0, far);

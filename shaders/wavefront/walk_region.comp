@@ -16,50 +16,66 @@ void log_exit(inout Path p, float t) {
     ++p.event;
 }
 
-/// One segment and its end. Straight-line code: a CPU driver executes both sides of a branch
-/// anyway.
-void advance(inout Path p, Medium medium, vec3 environment) {
-    bool inside = has_media != 0u && p.medium != VACUUM;
-    if (geometry != GEOMETRY_NONE && !inside) {
-        // The camera's ray, on its way in or past: what comes out again escapes.
-        float near, far;
-        if (intersect_region(p.origin, p.direction, near, far) && near > 0.0) {
-            p.origin += near * p.direction;
-            log_path(EVENT_INTERFACE, p);
-            p.medium = region.medium;
-            ++p.event;
-            inside = true;
-        }
+/// Takes the camera's ray to where it enters the medium.
+void enter_region(inout Path p, float near) {
+    if (geometry == GEOMETRY_NONE) return;
+    p.origin += near * p.direction;
+    log_path(EVENT_INTERFACE, p);
+    p.medium = region.medium;
+    ++p.event;
+}
+
+/// Scatters a path that collided at its origin, in the light that reaches it there.
+void scatter(inout Path p, Medium medium, uvec4 words) {
+    if (lights != 0u) {
+        const LightSample light = light_in_medium(p, medium);
+        const vec3 added = light.radiance *
+                           region_transmittance(p.origin, light.direction, light.distance, medium);
+        contribute(p, added);
+        if (!is_black(light.radiance)) log_light(p, p.origin, light.direction, p.medium, added);
     }
-    const uvec4 words = draw(p, BLOCK_PATH);
-    const float boundary =
-        geometry == GEOMETRY_NONE ? INFINITY : region_exit(p.origin, p.direction);
+    scatter_in_medium(p, medium, words);
+}
+
+/// One segment within the medium and its end. False if the path leaves: what comes out of a convex
+/// region does not come back.
+bool fly(inout Path p, Medium medium, float boundary, uvec4 words) {
     const float flight =
         has_collisions ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
-    const bool collided = inside && flight < boundary;
+    const bool collided = flight < boundary;
     const float t = min(flight, boundary);
-    if (inside) travel(p, medium, t, collided);
-    if (collided) {
-        p.origin += t * p.direction;
-        log_path(EVENT_COLLISION, p);
-        if (p.status == STATUS_RAY && may_scatter(p)) {
-            if (lights != 0u) {
-                const LightSample light = light_in_medium(p, medium);
-                const vec3 added = light.radiance * region_transmittance(p.origin, light.direction,
-                                                                         light.distance, medium);
-                contribute(p, added);
-                if (!is_black(light.radiance))
-                    log_light(p, p.origin, light.direction, p.medium, added);
-            }
-            scatter_in_medium(p, medium, words);
-        }
-    } else {
-        if (log_capacity != 0u && geometry != GEOMETRY_NONE && inside) log_exit(p, t);
-        if (has_environment != 0u) contribute(p, p.throughput * environment);
-        log_path(EVENT_ESCAPE, p);
-        p.status = STATUS_ENDED;
+    travel(p, medium, t, collided);
+    if (!collided) {
+        if (log_capacity != 0u && geometry != GEOMETRY_NONE) log_exit(p, t);
+        return false;
     }
+    p.origin += t * p.direction;
+    log_path(EVENT_COLLISION, p);
+    const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
+    if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
     ++p.event;
+    return true;
+}
+
+/// Begins a sample, or advances it by a segment: from one block of random numbers and one test
+/// against the region, since a CPU driver executes both ways for all lanes.
+void advance(inout Path p, CameraRecord camera, Medium medium) {
+    const bool begins = p.status == STATUS_ENDED;
+    if (begins) p.event = 0u;
+    const uvec4 words = draw(p, BLOCK_PATH);
+    if (begins) begin_sample(p, camera, words);
+    float near = 0.0, far = INFINITY;
+    bool is_inside = has_media != 0u && p.medium != VACUUM;
+    if (geometry != GEOMETRY_NONE)
+        is_inside = intersect_region(p.origin, p.direction, near, far) && (!begins || near > 0.0);
+    if (!begins)
+        is_inside = fly(p, medium, is_inside ? max(0.0, far) : 0.0, words);
+    else if (is_inside)
+        enter_region(p, near);
+    if (is_inside) return;
+    if (has_environment != 0u) contribute(p, p.throughput * camera.environment);
+    log_path(EVENT_ESCAPE, p);
+    p.status = STATUS_ENDED;
 }
 
 /// In a grey scene: says so of what the loop carries, so that only one channel of it is computed.
@@ -95,15 +111,13 @@ void main() {
         if (needs_work(p)) take_work(p);
         if (p.status == STATUS_WAITING) break;
         for (uint i = 0u; i < chunk; ++i) {
-            if (p.status == STATUS_ENDED) {
-                if (p.path_sample == p.batch_end || !is_sound) break;
-                begin_sample(p, camera);
-            }
+            if (p.status == STATUS_ENDED && (p.path_sample == p.batch_end || !is_sound)) break;
+            advance(p, camera, medium);
             keep_channels(p);
-            advance(p, medium, camera.environment);
             if (p.status == STATUS_ENDED) is_sound = finish_sample(p, camera);
         }
     }
+    keep_channels(p);
     if (!is_sound) report_path(p, camera);
     store_origin(slot, p);
     store_direction(slot, p);

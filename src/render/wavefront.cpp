@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <fmt/format.h>
 
@@ -14,10 +15,10 @@ using namespace shared;
 /// Bytes before the records of the event log.
 constexpr std::uint64_t kLogHeader = 16;
 
-/// Batches in flight at once: enough work for every path, bounded memory.
+/// Batches in flight at once: enough work for every path, bounded memory. A power of two.
 std::uint32_t batch_window(std::uint32_t pixels) {
     constexpr std::uint32_t wanted_items = 1u << 21;
-    return std::clamp<std::uint32_t>(wanted_items / pixels, 2, BATCH_WINDOW_MAX);
+    return std::clamp<std::uint32_t>(std::bit_floor(wanted_items / pixels), 2, BATCH_WINDOW_MAX);
 }
 
 Tuning choose_tuning(const gpu::Context& context, const shared::Features& features, Tuning tuning) {
