@@ -15,8 +15,6 @@
 TYNDALL_SHARED_BEGIN
 
 TYNDALL_CONSTANT uint NONE = 0xFFFFFFFFu;
-TYNDALL_CONSTANT uint COLLISION =
-    0xFFFFFFFEu; // in place of a primitive: the segment ended in a medium
 TYNDALL_CONSTANT uint VACUUM = 0xFFFFu;
 
 // Primitive kinds, in the upper bits of PrimitiveRecord::kind_and_shape.
@@ -314,7 +312,8 @@ TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the batch: weight * radiance
 TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in the window | unused
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
-TYNDALL_CONSTANT uint PATH_HIT = 8u; // distance, primitive, instance | distance before the segment
+// Distance to the end of the segment, primitive and instance there | distance before the segment
+TYNDALL_CONSTANT uint PATH_HIT = 8u;
 // Tracking: how far it has come along the segment | what is left of its flight | unused. March:
 // steps done | optical depth rgb.
 TYNDALL_CONSTANT uint PATH_TRACK = 9u;

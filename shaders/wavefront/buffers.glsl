@@ -75,6 +75,11 @@ void store_path(uint group, uint slot, uvec4 value) {
     else
         imageStore(path_texels, int(texel), value);
 }
+/// One word of a texel: a CPU driver stores word by word and lane by lane, which costs more than
+/// all else about a path's state.
+void store_path_word(uint group, uint component, uint slot, uint value) {
+    path_words[group * push.slot_count + slot][component] = value;
+}
 
 vec4 load_batch(uint texel) {
     if (in_storage(BINDING_BATCHES)) return uintBitsToFloat(batch_words[texel]);

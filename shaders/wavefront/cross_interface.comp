@@ -31,6 +31,6 @@ void main() {
     p.medium = medium_beyond(shape, s, p.direction, p.medium);
     ++p.event;
     store_origin(slot, p);
-    store_direction(slot, p);
+    store_path_word(PATH_DIRECTION, 3u, slot, p.event);
     set_distance_before(slot, distance_travelled(slot, hit.t));
 }

@@ -137,7 +137,7 @@ void cast_shadow_ray(uint slot, vec3 origin, uint medium, LightSample light) {
     if (is_black(light.radiance)) return;
     store_path(PATH_SHADOW, slot, uvec4(floatBitsToUint(origin), medium));
     store_path(PATH_SHADOW + 1u, slot, floatBitsToUint(vec4(light.direction, light.distance)));
-    store_path(PATH_SHADOW + 2u, slot, uvec4(floatBitsToUint(light.radiance), light.target));
+    store_colour(PATH_SHADOW + 2u, slot, light.radiance, light.target);
     enqueue(QUEUE_SHADOW, slot);
 }
 
@@ -148,7 +148,7 @@ float distance_travelled(uint slot, float t) {
 }
 void set_distance_before(uint slot, float before) {
     if (has_interfaces != 0u && paths_find_lights())
-        store_path(PATH_HIT, slot, uvec4(0u, 0u, 0u, floatBitsToUint(before)));
+        store_path_word(PATH_HIT, 3u, slot, floatBitsToUint(before));
 }
 
 #endif

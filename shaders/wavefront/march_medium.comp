@@ -145,8 +145,7 @@ void main() {
         p.throughput *= is_incremental ? exp(-depth) : transmittance(medium, column);
     }
     p.status = goes_on ? STATUS_TRACKING : is_black(p.throughput) ? STATUS_ENDED : STATUS_RAY;
-    store_origin(slot, p);
-    store_direction(slot, p);
+    store_progress(slot, p);
     store_throughput(slot, p);
     if (has_emission != 0u) store_radiance(slot, p);
     if (!goes_on) enqueue(p.status == STATUS_ENDED ? QUEUE_ENDED : queue_of_surface(hit.y), slot);

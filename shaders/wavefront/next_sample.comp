@@ -32,7 +32,8 @@ void main() {
             lose(p);
     }
     if (p.status == STATUS_ENDED && !finish_sample(p, camera)) report_path(p, camera);
-    if (needs_work(p)) take_work(p);
+    const bool takes_work = needs_work(p);
+    if (takes_work) take_work(p);
     if (p.status == STATUS_ENDED) {
         p.event = 0u;
         begin_sample(p, camera, draw(p, BLOCK_PATH));
@@ -42,6 +43,9 @@ void main() {
         set_distance_before(slot, 0.0);
     }
     store_origin(slot, p);
-    store_sample(slot, p);
-    store_batch_state(slot, p);
+    if (takes_work) {
+        store_sample(slot, p);
+        store_ticket(slot, p);
+    }
+    store_next_sample(slot, p);
 }

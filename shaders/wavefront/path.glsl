@@ -59,13 +59,29 @@ void load_ray(uint slot, inout Path p) {
     p.direction = floats(b);
     p.event = b.w;
 }
+uint medium_word(Path p) {
+    return p.medium | p.status << 16 | p.hero << 20 | mishaps << 22;
+}
 void store_origin(uint slot, Path p) {
-    store_path(
-        PATH_ORIGIN, slot,
-        uvec4(floatBitsToUint(p.origin), p.medium | p.status << 16 | p.hero << 20 | mishaps << 22));
+    store_path(PATH_ORIGIN, slot, uvec4(floatBitsToUint(p.origin), medium_word(p)));
+}
+/// What of origin and direction changes where a path goes straight on.
+void store_progress(uint slot, Path p) {
+    store_path_word(PATH_ORIGIN, 3u, slot, medium_word(p));
+    store_path_word(PATH_DIRECTION, 3u, slot, p.event);
 }
 void store_direction(uint slot, Path p) {
     store_path(PATH_DIRECTION, slot, uvec4(floatBitsToUint(p.direction), p.event));
+}
+
+/// A colour and a word; of a grey one only what load_* reads.
+void store_colour(uint group, uint slot, vec3 rgb, uint word) {
+    if (is_grey != 0u) {
+        store_path_word(group, 0u, slot, floatBitsToUint(rgb.x));
+        store_path_word(group, 3u, slot, word);
+    } else {
+        store_path(group, slot, uvec4(floatBitsToUint(rgb), word));
+    }
 }
 
 void load_throughput(uint slot, inout Path p) {
@@ -75,7 +91,7 @@ void load_throughput(uint slot, inout Path p) {
     p.r = is_chromatic != 0u ? floats(load_path(PATH_SPECTRAL, slot)) : vec3(1);
 }
 void store_throughput(uint slot, Path p) {
-    store_path(PATH_THROUGHPUT, slot, uvec4(floatBitsToUint(p.throughput), p.depth));
+    store_colour(PATH_THROUGHPUT, slot, p.throughput, p.depth);
     if (is_chromatic != 0u) store_path(PATH_SPECTRAL, slot, floatBitsToUint(vec4(p.r, 0)));
 }
 
@@ -85,7 +101,7 @@ void load_radiance(uint slot, inout Path p) {
     p.pdf = uintBitsToFloat(a.w);
 }
 void store_radiance(uint slot, Path p) {
-    store_path(PATH_RADIANCE, slot, floatBitsToUint(vec4(p.radiance, p.pdf)));
+    store_colour(PATH_RADIANCE, slot, p.radiance, floatBitsToUint(p.pdf));
 }
 
 void load_sample(uint slot, inout Path p) {
@@ -94,11 +110,18 @@ void load_sample(uint slot, inout Path p) {
     p.stream = p.xy.y * push.full_width + p.xy.x;
     p.path_sample = a.y;
     p.batch_end = a.z;
-    p.weight = uintBitsToFloat(a.w);
+    p.weight = filter_kind == FILTER_TABLE ? uintBitsToFloat(a.w) : 1.0;
 }
 void store_sample(uint slot, Path p) {
     store_path(PATH_SAMPLE, slot,
                uvec4(p.xy.x | p.xy.y << 16, p.path_sample, p.batch_end, floatBitsToUint(p.weight)));
+}
+/// What changes from sample to sample of a batch.
+void store_next_sample(uint slot, Path p) {
+    store_path_word(PATH_SAMPLE, 1u, slot, p.path_sample);
+    if (filter_kind == FILTER_TABLE)
+        store_path_word(PATH_SAMPLE, 3u, slot, floatBitsToUint(p.weight));
+    store_colour(PATH_SUM, slot, p.sum.xyz, floatBitsToUint(p.sum.w));
 }
 
 void load_batch_state(uint slot, inout Path p) {
@@ -109,8 +132,7 @@ void load_batch_state(uint slot, inout Path p) {
     p.pixel = a.y;
     p.window_slot = a.z;
 }
-void store_batch_state(uint slot, Path p) {
-    store_path(PATH_SUM, slot, floatBitsToUint(p.sum));
+void store_ticket(uint slot, Path p) {
     store_path(PATH_TICKET, slot, uvec4(p.ticket, p.pixel, p.window_slot, 0u));
 }
 

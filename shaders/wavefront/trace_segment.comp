@@ -31,7 +31,7 @@ void main() {
                 if (is_carried(medium)) {
                     queue = QUEUE_TRACK;
                 } else if (march == MARCH_NONE && flight < hit.t) {
-                    hit = Hit(flight, COLLISION, NONE);
+                    hit.t = flight;
                     queue = QUEUE_VOLUME;
                 }
             }
@@ -43,9 +43,10 @@ void main() {
             contribute(p, expected_emission(p, surface, before));
             store_radiance(slot, p);
         }
-        store_path(
-            PATH_HIT, slot,
-            uvec4(floatBitsToUint(hit.t), hit.primitive, hit.instance, floatBitsToUint(before)));
+        store_path_word(PATH_HIT, 0u, slot, floatBitsToUint(hit.t));
+        store_path_word(PATH_HIT, 1u, slot, hit.primitive);
+        if ((primitives & PRIMITIVE_INSTANCES) != 0u)
+            store_path_word(PATH_HIT, 2u, slot, hit.instance);
     }
     enqueue(queue, slot);
 }

@@ -99,12 +99,12 @@ void main() {
     p.status = goes_on                                         ? STATUS_TRACKING
                : end == END_ABSORBED || is_black(p.throughput) ? STATUS_ENDED
                                                                : STATUS_RAY;
-    if (goes_on) store_path(PATH_TRACK, slot, uvec4(floatBitsToUint(vec2(t, tau)), 0u, 0u));
-    if (is_real) store_path(PATH_HIT, slot, uvec4(floatBitsToUint(t), COLLISION, NONE, hit.w));
+    if (goes_on) store_path_word(PATH_TRACK, 1u, slot, floatBitsToUint(tau));
+    store_path_word(goes_on ? PATH_TRACK : PATH_HIT, 0u, slot,
+                    goes_on || is_real ? floatBitsToUint(t) : hit.x);
     if (p.status == STATUS_ENDED) log_path(EVENT_ABSORBED, p);
     report_majorant_ratio(worst_ratio);
-    store_origin(slot, p);
-    store_direction(slot, p);
+    store_progress(slot, p);
     store_throughput(slot, p);
     if (has_emission != 0u) store_radiance(slot, p);
     if (!goes_on)

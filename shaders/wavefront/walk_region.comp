@@ -124,5 +124,6 @@ void main() {
     store_throughput(slot, p);
     store_radiance(slot, p);
     store_sample(slot, p);
-    store_batch_state(slot, p);
+    store_next_sample(slot, p);
+    store_ticket(slot, p);
 }
