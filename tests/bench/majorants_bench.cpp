@@ -1,6 +1,7 @@
 /// The cells of majorants: what a step and a null collision cost, and what the size of cells is
 /// worth.
 #include "bench/bench.h"
+#include "bench/made_scenes.h"
 #include "scene/cloud.h"
 #include "volume/majorants.h"
 
@@ -20,18 +21,6 @@ constexpr int kPixels = 96;
 
 GridDensity& density_of(Scene& scene) {
     return std::get<GridDensity>(scene.media[0].density);
-}
-
-Grid make_field(const std::function<double(const glm::ivec3&)>& value) {
-    const VoxelBox box{glm::ivec3(0), glm::ivec3(kEdge - 1)};
-    GridBuilder builder(box);
-    std::array<float, kBrickVoxels> values;
-    each_brick_of(box, [&](const glm::ivec3& brick) {
-        for (int i = 0; i < kBrickVoxels; ++i)
-            values[static_cast<std::size_t>(i)] = static_cast<float>(value(brick_voxel(brick, i)));
-        builder.set_brick(brick, values);
-    });
-    return builder.finish();
 }
 
 /// CPU seconds per million paths with the majorants that the scene has, the least of some runs.
@@ -65,9 +54,9 @@ void majorant_price(benchmark::State& state) {
         scene.media[0].sigma_s = Rgb(sigma);
         return cpu_per_million(scene, 32);
     };
-    const Grid thin = make_field([](const glm::ivec3&) { return 1e-6; });
+    const Grid thin = make_field(kEdge, [](const glm::ivec3&) { return 1e-6; });
     const Grid corner =
-        make_field([](const glm::ivec3& v) { return v == glm::ivec3(0) ? 1 : 1e-6; });
+        make_field(kEdge, [](const glm::ivec3& v) { return v == glm::ivec3(0) ? 1 : 1e-6; });
     constexpr double few = 30, many = 90;
     for (auto _ : state) {
         const double step = (cpu(thin, 1, 2) - cpu(thin, 1, 8)) / (kEdge / 2 - kEdge / 8);
@@ -116,8 +105,8 @@ double wisps(const glm::ivec3& voxel) {
 
 const std::array<Cloud, 4> kClouds{{
     {"dense", 16, [] { return read_bench_scene("bench/cloud", kPixels); }},
-    {"puffs", 16, [] { return cloud_of(make_field(puffs), 200); }},
-    {"wisps", 16, [] { return cloud_of(make_field(wisps), 300); }},
+    {"puffs", 16, [] { return cloud_of(make_field(kEdge, puffs), 200); }},
+    {"wisps", 16, [] { return cloud_of(make_field(kEdge, wisps), 300); }},
     {"smoke.vdb", 64, [] { return read_bench_scene("../scenes/smoke", kPixels); }},
 }};
 

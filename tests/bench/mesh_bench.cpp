@@ -1,5 +1,6 @@
 /// Rays against a mesh, beside Embree's rtcIntersect1 on the same rays.
 #include "bench/bench.h"
+#include "bench/made_scenes.h"
 #include "bench/mesh_rays.h"
 #include "spirv/mesh_rays.h"
 
@@ -13,28 +14,6 @@ namespace tyndall::bench {
 namespace {
 
 constexpr std::uint32_t kRays = 1u << 20;
-
-/// A ball with bumps, 2 n^2 triangles, within the cube from -1 to 1.
-Mesh bumpy_ball(int n) {
-    constexpr float pi = 3.14159265F;
-    Mesh mesh;
-    for (int i = 0; i <= n; ++i)
-        for (int j = 0; j <= n; ++j) {
-            const float a = pi * static_cast<float>(i) / static_cast<float>(n);
-            const float b = 2 * pi * static_cast<float>(j) / static_cast<float>(n);
-            const float r = 0.8F + 0.12F * std::sin(9 * a) * std::cos(7 * b) +
-                            0.05F * std::sin(41 * a) * std::sin(37 * b);
-            mesh.positions.push_back(
-                r * glm::vec3(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
-        }
-    const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-            mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-        }
-    return mesh;
-}
 
 /// The rays on the device, through the hierarchy of the renderer.
 class DeviceRays {
