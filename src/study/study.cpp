@@ -35,7 +35,7 @@ class Study {
     /// What is kept back for the report.
     double report_seconds() const {
         const double budget = options_.budget_seconds;
-        return std::min(0.25 * budget, 2 + 0.02 * budget);
+        return std::min(0.25 * budget, 3 + 0.03 * budget);
     }
     double left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
     bool look_up();
