@@ -31,6 +31,17 @@ Mesh torus_mesh(int rings, int sides, bool normals) {
     return mesh;
 }
 
+Scene dark_tube() {
+    Scene scene = empty_scene(256);
+    scene.camera.kind = Camera::Kind::perspective;
+    scene.camera.fov = 140;
+    scene.camera.screen_window_given = false;
+    scene.camera.world_from_camera = look_at({1, 0.02, 0.01}, {1, 1, 0}, {0, 0, 1});
+    add_infinite(scene);
+    add_shape(scene, torus_mesh(24, 12), {.material = black});
+    return scene;
+}
+
 Scene busy_scene() {
     Scene scene = empty_scene(16);
     scene.camera.kind = Camera::Kind::perspective;

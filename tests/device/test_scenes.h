@@ -8,6 +8,10 @@ namespace tyndall::device_test {
 /// A ring about the z axis; `normals` adds vertex normals.
 Mesh torus_mesh(int rings, int sides, bool normals = false);
 
+/// The camera in the tube of a black torus, which the sky must not find a way into. 256 x 256
+/// pixels.
+Scene dark_tube();
+
 /// A room of fog within a box of interfaces: floor, ball, torus with vertex normals, a cloud of
 /// another medium, an area light and a dim sky. 16 x 16 pixels.
 Scene busy_scene();

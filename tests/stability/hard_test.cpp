@@ -12,21 +12,10 @@ namespace tyndall::stability {
 namespace {
 
 using namespace support;
+using device_test::dark_tube;
 using device_test::DeviceTest;
 using device_test::mean_of;
 using device_test::render;
-
-/// The camera in the tube of a black torus, which the sky must not find a way into.
-Scene dark_tube() {
-    Scene scene = empty_scene(256);
-    scene.camera.kind = Camera::Kind::perspective;
-    scene.camera.fov = 140;
-    scene.camera.screen_window_given = false;
-    scene.camera.world_from_camera = look_at({1, 0.02, 0.01}, {1, 1, 0}, {0, 0, 1});
-    add_infinite(scene);
-    add_shape(scene, device_test::torus_mesh(24, 12), {.material = black});
-    return scene;
-}
 
 class Leaks : public DeviceTest {};
 

@@ -124,13 +124,7 @@ TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
 }
 
 TEST_F(LongStability, ABillionRaysStayInAClosedMesh) {
-    Scene scene = empty_scene(256);
-    scene.camera.kind = Camera::Kind::perspective;
-    scene.camera.fov = 140;
-    scene.camera.screen_window_given = false;
-    scene.camera.world_from_camera = look_at({1, 0.02, 0.01}, {1, 1, 0}, {0, 0, 1});
-    add_infinite(scene);
-    add_shape(scene, device_test::torus_mesh(24, 12), {.material = black});
+    const Scene scene = device_test::dark_tube();
     EXPECT_EQ(device_test::mean_of(scene, 1'000'000'000 / (256 * 256)).mean, Rgb(0));
 }
 
