@@ -37,12 +37,6 @@
 
 TYNDALL_SHARED_BEGIN
 
-// Of Russian roulette: a path survives with this times its throughput. The environment is found by
-// paths that leave, and what roulette takes is noise; other light is found bit by bit on the way,
-// and there is little of it so late.
-TYNDALL_CONSTANT float ROULETTE_SCALE_IN_ENVIRONMENT = 4.0f;
-TYNDALL_CONSTANT float ROULETTE_SCALE = 2.0f;
-
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;
 TYNDALL_CONSTANT uint BLOCK_SHADOW = 2u;
