@@ -211,7 +211,9 @@ TEST(IntegratorType, RefusesTechniquesThatAreNone) {
     EXPECT_EQ(option_error("Integrator \"volpath\" \"string absorption\" \"none\""),
               "unknown absorption \"none\" (expected one of expected, analog)");
     EXPECT_EQ(option_error("Integrator \"singlescatter\" \"integer steps\" 0"),
-              "parameter \"integer steps\" is 0 (expected a value > 0)");
+              "parameter \"integer steps\" is 0 (expected 1 to 4096 steps)");
+    EXPECT_EQ(option_error("Integrator \"singlescatter\" \"integer steps\" 4097"),
+              "parameter \"integer steps\" is 4097 (expected 1 to 4096 steps)");
     EXPECT_EQ(
         option_error("Integrator \"singlescatter\" \"integer steps\" 9 \"float stepsize\" 0.1"),
         "parameters \"float stepsize\" and \"integer steps\" exclude each other");
