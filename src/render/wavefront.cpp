@@ -82,7 +82,7 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
 }
 
 void Wavefront::build_stages() {
-    for (const StageKind& kind : stage_kinds()) {
+    for (const StageKind& kind : tuning_.stages) {
         if (!kind.is_called_for(features_)) continue;
         stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
                                              kind.features(features_))});

@@ -18,6 +18,7 @@ struct Tuning {
     std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
     std::uint32_t workgroup_size = 0; ///< 0: chosen.
     std::uint32_t log_capacity = 0;   ///< Events of paths that are kept for a replay.
+    std::span<const StageKind> stages = stage_kinds(); ///< Of which run those that are called for.
 };
 
 /// What happened to paths, as far as there was room.
