@@ -1,9 +1,10 @@
 // One table of descriptors, for both compilers: set 0, bound once.
 //
 // Data that a kernel reads at random lives in texel buffers, of rgba32ui unless said otherwise: on
-// CPU drivers they are ten to thirty times faster to read than storage buffers. Each such buffer
-// has two bindings, as texels and as storage, because a device may limit texel buffers to fewer
-// elements than we have; which of the two a kernel uses is a specialization constant (features.h).
+// CPU drivers they are ten to thirty times faster to read than storage buffers, and a third slower
+// to write. So each such buffer has two bindings: it is read as texels and written as storage. A
+// device may limit either to fewer bytes than we have; then the other serves for both, by
+// specialization constants (features.h).
 #ifndef TYNDALL_BINDINGS_H
 #define TYNDALL_BINDINGS_H
 

@@ -92,7 +92,8 @@ TYNDALL_SHARED_END
     X(34, is_analog, 0)            /* flights end by absorption, too, and paths with them */       \
     X(35, marches_shadows, 0)      /* shadow rays march through media that are tracked */          \
     X(36, march, 0) /* MARCH_*: paths march through media that scatter, and scatter once there */  \
-    X(37, has_contacts, 1) /* some boundary may touch another surface */
+    X(37, has_contacts, 1) /* some boundary may touch another surface */                           \
+    X(38, texel_stores, 0) /* bit n: buffer n is too large for a storage binding to write to */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -15,7 +15,7 @@ layout(push_constant, std430) uniform Push {
 };
 
 layout(binding = BINDING_SCENE) uniform usamplerBuffer scene_texels;
-layout(binding = BINDING_PATHS, rgba32ui) uniform uimageBuffer path_texels;
+layout(binding = BINDING_PATHS, rgba32ui) readonly uniform uimageBuffer path_texels;
 layout(binding = BINDING_BATCHES, rgba32ui) uniform uimageBuffer batch_texels;
 layout(binding = BINDING_FILM, rgba32ui) uniform uimageBuffer film_texels;
 layout(binding = BINDING_VOXELS) uniform samplerBuffer voxel_texels;
@@ -48,8 +48,12 @@ uint invocation() {
            gl_LocalInvocationIndex;
 }
 
+/// Whether a buffer is read through its storage twin, and whether it is written as texels.
 bool in_storage(int binding) {
     return (storage_fallback >> binding & 1u) != 0u;
+}
+bool in_texels(int binding) {
+    return (texel_stores >> binding & 1u) != 0u;
 }
 
 uvec4 fetch_scene(uint texel) {
@@ -63,15 +67,29 @@ float fetch_voxel(uint at) {
     return unpackHalf2x16(voxel_words[at >> 1])[at & 1u];
 }
 
+uvec4 load_path(uint group, uint slot) {
+    const uint texel = group * push.slot_count + slot;
+    if (in_storage(BINDING_PATHS)) return path_words[texel];
+    return imageLoad(path_texels, int(texel));
+}
+void store_path(uint group, uint slot, uvec4 value) {
+    path_words[group * push.slot_count + slot] = value;
+}
+/// One word of a texel: a CPU driver stores word by word and lane by lane, which costs more than
+/// all else about a path's state.
+void store_path_word(uint group, uint component, uint slot, uint value) {
+    path_words[group * push.slot_count + slot][component] = value;
+}
+
 vec4 load_batch(uint texel) {
     if (in_storage(BINDING_BATCHES)) return uintBitsToFloat(batch_words[texel]);
     return uintBitsToFloat(imageLoad(batch_texels, int(texel)));
 }
 void store_batch(uint texel, vec4 value) {
-    if (in_storage(BINDING_BATCHES))
-        batch_words[texel] = floatBitsToUint(value);
-    else
+    if (in_texels(BINDING_BATCHES))
         imageStore(batch_texels, int(texel), floatBitsToUint(value));
+    else
+        batch_words[texel] = floatBitsToUint(value);
 }
 
 vec4 load_film(uint texel) {
@@ -79,10 +97,10 @@ vec4 load_film(uint texel) {
     return uintBitsToFloat(imageLoad(film_texels, int(texel)));
 }
 void store_film(uint texel, vec4 value) {
-    if (in_storage(BINDING_FILM))
-        film_words[texel] = floatBitsToUint(value);
-    else
+    if (in_texels(BINDING_FILM))
         imageStore(film_texels, int(texel), floatBitsToUint(value));
+    else
+        film_words[texel] = floatBitsToUint(value);
 }
 
 #endif

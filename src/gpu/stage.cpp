@@ -108,12 +108,16 @@ Descriptors::Descriptors(const Context& context, const Bindings& bindings, std::
                                : i == shared::BINDING_CONTROL             ? *bindings.control
                                : i == shared::BINDING_LOG && bindings.log ? *bindings.log
                                                                           : *bindings.queues;
-        if (is_twin && buffer.exceeds_view()) {
-            check_size(context, buffer, kTexelBufferNames[i - shared::STORAGE_TWIN]);
-            storage_fallback_ |= 1u << (i - shared::STORAGE_TWIN);
-        }
-        // The twin that no kernel reads is bound as far as the limit allows.
         const std::uint64_t limit = context.limits().maxStorageBufferRange;
+        if (is_twin) {
+            const std::uint32_t bit = 1u << (i - shared::STORAGE_TWIN);
+            if (buffer.exceeds_view()) {
+                check_size(context, buffer, kTexelBufferNames[i - shared::STORAGE_TWIN]);
+                storage_fallback_ |= bit;
+            } else if (buffer.bytes() > limit) {
+                texel_stores_ |= bit; // and the twin is bound as far as the limit allows
+            }
+        }
         buffers[i] = {buffer.get(), 0, std::min<std::uint64_t>(buffer.bytes(), limit)};
         writes[i].pBufferInfo = &buffers[i];
     }

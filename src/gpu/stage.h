@@ -34,6 +34,8 @@ class Descriptors {
     /// Bit n: texel buffer n exceeds maxTexelBufferElements and is read as a storage buffer
     /// (Features::storage_fallback).
     std::uint32_t storage_fallback() const { return storage_fallback_; }
+    /// Bit n: it exceeds maxStorageBufferRange and is written as texels (Features::texel_stores).
+    std::uint32_t texel_stores() const { return texel_stores_; }
 
   private:
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> set_layout_;
@@ -42,6 +44,7 @@ class Descriptors {
     VkDescriptorSet set_ = VK_NULL_HANDLE; // owned by pool_
     std::uint32_t push_bytes_ = 0;
     std::uint32_t storage_fallback_ = 0;
+    std::uint32_t texel_stores_ = 0;
 };
 
 /// One stage of the wavefront: a compute shader specialized by features.

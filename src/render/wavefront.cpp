@@ -29,8 +29,11 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     if (tuning.run_length == 0) tuning.run_length = has_hierarchy ? 64 : 256;
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
-    const std::uint64_t most =
-        std::uint64_t{context.limits().maxComputeWorkGroupCount[0]} * tuning.workgroup_size;
+    // The state of paths is written as storage (shared/bindings.h).
+    const VkPhysicalDeviceLimits& limits = context.limits();
+    const std::uint64_t most = std::min<std::uint64_t>(
+        std::uint64_t{limits.maxComputeWorkGroupCount[0]} * tuning.workgroup_size,
+        limits.maxStorageBufferRange / (16 * PATH_GROUPS));
     tuning.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(tuning.slots, most));
     return tuning;
 }
@@ -76,13 +79,14 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     features_.workgroup_size = tuning_.workgroup_size;
     features_.log_capacity = tuning_.log_capacity;
     features_.storage_fallback = descriptors_->storage_fallback();
+    features_.texel_stores = descriptors_->texel_stores();
     features_.loops_test_first = context.info().driver.starts_with("SwiftShader");
 
     build_stages();
 }
 
 void Wavefront::build_stages() {
-    for (const StageKind& kind : tuning_.stages) {
+    for (const StageKind& kind : stage_kinds()) {
         if (!kind.is_called_for(features_)) continue;
         stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
                                              kind.features(features_))});
