@@ -289,6 +289,7 @@ struct Control {
     uint folded_batches; ///< Batches of this epoch that are in the film.
     uint fold_count;     ///< Batches that the next fold adds.
     uint fold_limit; ///< Batches of this epoch that may be folded: the host looks at them first.
+    uint fold_least; ///< Batches that are worth a fold before fold_limit, by the host.
     uint finished[BATCH_WINDOW_MAX];  ///< Pixels finished of each batch in the window.
     uint health[HEALTH_COUNT];        ///< Paths by kind of mishap (health.h);
     uint health_pixel[HEALTH_COUNT];  ///< of the first that was noticed, x | y << 16

@@ -32,10 +32,11 @@ void main() {
     uint count = 0u;
     const uint limit = min(push.batch_count, control.fold_limit), most = most_folds();
     while (folded + count < limit && count < most &&
-           control.finished[(folded + count) % push.window] == push.pixel_count) {
-        control.finished[(folded + count) % push.window] = 0u;
+           control.finished[(folded + count) % push.window] == push.pixel_count)
         ++count;
-    }
+    if (folded + count < limit && count < min(control.fold_least, most)) count = 0u;
+    for (uint i = 0u; i < count; ++i)
+        control.finished[(folded + i) % push.window] = 0u;
     control.fold_count = count;
     control.fold_dispatch = dispatch_size(count == 0u ? 0u : fold_lanes(push.pixel_count));
     control.ticket_limit = push.pixel_count * min(push.batch_count, folded + count + push.window);

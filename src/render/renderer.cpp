@@ -118,6 +118,15 @@ void Renderer::take_in(const Control& control) {
         std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());
 }
 
+/// Brings the film up to date: with all batches that are complete, up to the next look.
+void Renderer::fold() {
+    for (std::uint32_t before = ~0u; folded_batches_ != before;) {
+        before = folded_batches_;
+        wavefront_.fold(look_batch_ - epoch_batch_);
+        take_in(wavefront_.read_control());
+    }
+}
+
 /// Takes in the error of the film, which must hold folded_batches_.
 void Renderer::measure_error() {
     for (; contrasted_batches_ < folded_batches_; ++contrasted_batches_)
@@ -166,6 +175,7 @@ bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going)
         const std::uint32_t look = look_batch_;
         if (!ask(batch_count, keep_going) || is_done) {
             land(flights[i ^ 1]);
+            fold();
             return folded_batches_ == epoch_batch_ + batch_count;
         }
         // Twice as much or half as much at a time: one submission is no reliable measure. Small
@@ -182,8 +192,7 @@ bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going)
 }
 
 void Renderer::each_film_pixel(const std::function<void(std::size_t, const glm::vec4*)>& visit) {
-    // Submissions in flight may have folded more since their control block was last seen.
-    take_in(wavefront_.read_control());
+    fold();
     constexpr std::uint32_t chunk = 1u << 18;
     std::vector<glm::vec4> texels;
     for (std::uint32_t first = 0; first < tables_.push.pixel_count; first += chunk) {

@@ -90,6 +90,7 @@ class Renderer {
     void submit(Flight& flight);
     void land(Flight& flight);
     void take_in(const shared::Control& control);
+    void fold();
     void measure_error();
     void each_film_pixel(const std::function<void(std::size_t, const glm::vec4*)>& visit);
 

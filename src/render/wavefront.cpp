@@ -140,11 +140,19 @@ void Wavefront::record_stage(gpu::Commands& commands, const BuiltStage& built) c
     commands.barrier();
 }
 
+void Wavefront::record_fold_limits(gpu::Commands& commands, std::uint32_t limit,
+                                   std::uint32_t least) const {
+    commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
+    commands.write(control_, offsetof(Control, fold_limit), limit);
+    commands.write(control_, offsetof(Control, fold_least), least);
+    commands.barrier();
+}
+
 void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
                               std::uint32_t fold_limit, const gpu::Timestamps& clock) const {
-    commands.bind(*descriptors_, std::as_bytes(std::span(&push_, 1)));
-    commands.write(control_, offsetof(Control, fold_limit), fold_limit);
-    commands.barrier();
+    // Each fold reads and writes the whole film, so several batches at once; but the rest of the
+    // window must be work enough meanwhile.
+    record_fold_limits(commands, fold_limit, std::max(push_.window / 4, 1u));
     commands.reset(clock);
     commands.mark(clock, 0);
     for (std::uint32_t round = 0; round < rounds; ++round) {
@@ -154,6 +162,16 @@ void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
             if (round == 0) commands.mark(clock, ++mark);
         }
     }
+}
+
+void Wavefront::fold(std::uint32_t fold_limit) const {
+    gpu::Commands commands(*context_);
+    commands.begin();
+    record_fold_limits(commands, fold_limit, 1);
+    record_stage(commands, stages_[schedule_]);
+    record_stage(commands, stages_[schedule_ + 1]); // update_film
+    commands.submit();
+    commands.wait();
 }
 
 void Wavefront::record_readback(gpu::Commands& commands, const gpu::Buffer& to) const {

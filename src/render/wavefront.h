@@ -18,7 +18,6 @@ struct Tuning {
     std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
     std::uint32_t workgroup_size = 0; ///< 0: chosen.
     std::uint32_t log_capacity = 0;   ///< Events of paths that are kept for a replay.
-    std::span<const StageKind> stages = stage_kinds(); ///< Of which run those that are called for.
 };
 
 /// What happened to paths, as far as there was room.
@@ -47,6 +46,9 @@ class Wavefront {
     /// one mark more than there are stages.
     void record_rounds(gpu::Commands& commands, std::uint32_t rounds, std::uint32_t fold_limit,
                        const gpu::Timestamps& clock) const;
+    /// Folds batches that are complete, as rounds do only once they are several, up to
+    /// `fold_limit`.
+    void fold(std::uint32_t fold_limit) const;
     /// Records the copy of the control block into `to` (host visible).
     void record_readback(gpu::Commands& commands, const gpu::Buffer& to) const;
 
@@ -75,6 +77,8 @@ class Wavefront {
     };
     void build_stages();
     void record_stage(gpu::Commands& commands, const BuiltStage& built) const;
+    void record_fold_limits(gpu::Commands& commands, std::uint32_t limit,
+                            std::uint32_t least) const;
 
     const gpu::Context* context_;
     shared::Features features_;
