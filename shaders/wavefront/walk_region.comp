@@ -8,23 +8,6 @@
 //
 //   ray -> ray, radiance
 
-/// For a log, leaving is an event as it is where there is a hierarchy.
-void log_exit(inout Path p, float t) {
-    p.origin += t * p.direction;
-    log_path(EVENT_INTERFACE, p);
-    p.medium = VACUUM;
-    ++p.event;
-}
-
-/// Takes the camera's ray to where it enters the medium.
-void enter_region(inout Path p, float near) {
-    if (geometry == GEOMETRY_NONE) return;
-    p.origin += near * p.direction;
-    log_path(EVENT_INTERFACE, p);
-    p.medium = region.medium;
-    ++p.event;
-}
-
 /// Scatters a path that collided at its origin, in the light that reaches it there.
 void scatter(inout Path p, Medium medium, uvec4 words) {
     if (lights != 0u) {
@@ -37,45 +20,59 @@ void scatter(inout Path p, Medium medium, uvec4 words) {
     scatter_in_medium(p, medium, words);
 }
 
-/// One segment within the medium and its end. False if the path leaves: what comes out of a convex
-/// region does not come back.
-bool fly(inout Path p, Medium medium, float boundary, uvec4 words) {
-    const float flight =
-        has_collisions ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
-    const bool collided = flight < boundary;
-    const float t = min(flight, boundary);
-    travel(p, medium, t, collided);
-    if (!collided) {
-        if (log_capacity != 0u && geometry != GEOMETRY_NONE) log_exit(p, t);
-        return false;
-    }
-    p.origin += t * p.direction;
-    log_path(EVENT_COLLISION, p);
-    const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
-    if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
+/// Logs a crossing of the region's boundary, which is an event as it is where there is a hierarchy.
+void cross_boundary(inout Path p, uint medium) {
+    log_path(EVENT_INTERFACE, p);
+    p.medium = medium;
     ++p.event;
-    return true;
 }
 
-/// Begins a sample, or advances it by a segment: from one block of random numbers and one test
-/// against the region, since a CPU driver executes both ways for all lanes.
-void advance(inout Path p, CameraRecord camera, Medium medium) {
-    const bool begins = p.status == STATUS_ENDED;
-    if (begins) p.event = 0u;
-    const uvec4 words = draw(p, BLOCK_PATH);
-    if (begins) begin_sample(p, camera, words);
-    float near = 0.0, far = INFINITY;
-    bool is_inside = has_media != 0u && p.medium != VACUUM;
-    if (geometry != GEOMETRY_NONE)
-        is_inside = intersect_region(p.origin, p.direction, near, far) && (!begins || near > 0.0);
-    if (!begins)
-        is_inside = fly(p, medium, is_inside ? max(0.0, far) : 0.0, words);
-    else if (is_inside)
-        enter_region(p, near);
-    if (is_inside) return;
+/// Ends a path that left, or never came in: what leaves a convex region does not come back.
+void escape(inout Path p, CameraRecord camera) {
+    if (log_capacity != 0u && geometry != GEOMETRY_NONE && p.medium != VACUUM)
+        cross_boundary(p, VACUUM);
     if (has_environment != 0u) contribute(p, p.throughput * camera.environment);
     log_path(EVENT_ESCAPE, p);
     p.status = STATUS_ENDED;
+}
+
+/// Begins a sample if one has ended, and flies a segment within the medium. All that in one go, of
+/// which neither block of random numbers waits for what comes before: a CPU driver executes both
+/// ways of each branch for all lanes, and what a turn takes is the longest chain through it.
+void advance(inout Path p, CameraRecord camera, Medium medium) {
+    const bool begins = p.status == STATUS_ENDED;
+    const uint first_event = geometry == GEOMETRY_NONE ? 1u : 2u;
+    const uvec4 words =
+        random_block(seed, p.stream, p.path_sample, begins ? first_event : p.event, BLOCK_PATH);
+    if (begins) {
+        p.event = 0u;
+        begin_sample(p, camera, draw(p, BLOCK_PATH));
+    }
+    float near = 0.0, far = INFINITY;
+    bool hits = has_media != 0u && p.medium != VACUUM;
+    if (geometry != GEOMETRY_NONE) {
+        hits = intersect_region(p.origin, p.direction, near, far) && (!begins || near > 0.0);
+        if (begins && hits) {
+            p.origin += near * p.direction;
+            far -= near;
+            cross_boundary(p, region.medium);
+        }
+    }
+    const float boundary = hits ? max(0.0, far) : 0.0;
+    const float flight =
+        has_collisions ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
+    const bool collides = flight < boundary;
+    const float t = min(flight, boundary);
+    if (hits) travel(p, medium, t, collides);
+    if (geometry != GEOMETRY_NONE || collides) p.origin += t * p.direction;
+    if (collides) {
+        log_path(EVENT_COLLISION, p);
+        const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
+        if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
+        ++p.event;
+    } else {
+        escape(p, camera);
+    }
 }
 
 /// In a grey scene: says so of what the loop carries, so that only one channel of it is computed.
@@ -94,7 +91,7 @@ void keep_channels(inout Path p) {
 void main() {
     const uint slot = gl_GlobalInvocationID.x;
     if (slot >= push.slot_count) return;
-    const uint chunk = 16u;
+    const uint chunk = 32u;
     const CameraRecord camera = load_camera();
     Medium medium;
     if (geometry != GEOMETRY_NONE) region = load_region();
