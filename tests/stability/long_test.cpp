@@ -1,13 +1,12 @@
 // The longer tier (label "long"): scenes of eight kinds over 1e8 paths each, of which none may go
-// wrong; the rows of the table a hundred times deeper; 1e9 rays in a closed mesh.
+// wrong; 1e9 rays in a closed mesh. The rows of the table a hundred times deeper: rows_test.cpp.
 #include "device/device_test.h"
 #include "device/test_scenes.h"
-#include "stability/rows.h"
+#include "selftest/cases.h"
 #include "support/materials.h"
 #include "support/volumes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ostream>
 
 namespace tyndall::stability {
@@ -111,17 +110,6 @@ const auto name_of = [](const auto& info) {
     return name;
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, LongPaths, testing::ValuesIn(kinds()), name_of);
-
-TEST_F(LongStability, RowsHoldAHundredTimesDeeper) {
-    for (const selftest::Case& c : rows()) {
-        const Estimate mean = device_test::mean_of(c.scene, 100 * std::min(c.samples, 4096u));
-        for (int k = 0; k < 3; ++k)
-            EXPECT_LE(std::abs(mean.mean[k] - c.expected[k]),
-                      support::pass * mean.standard_error[k] + c.rounding * c.expected[k])
-                << c.name << ", channel " << k << ": " << mean.mean[k] << " +- "
-                << mean.standard_error[k];
-    }
-}
 
 TEST_F(LongStability, ABillionRaysStayInAClosedMesh) {
     const Scene scene = device_test::dark_tube();

@@ -6,6 +6,7 @@
 #include "device/device_test.h"
 #include "stability/rows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -40,6 +41,15 @@ TEST_P(Rows, AreRightOnTheDevice) {
     expect_row(GetParam(), device_test::mean_of(GetParam().scene, GetParam().samples));
 }
 
+/// The longer tier: a hundred times the samples, by which errors are resolved that are ten times
+/// smaller.
+class LongRows : public Rows {};
+
+TEST_P(LongRows, AreRightAHundredTimesDeeper) {
+    const Case& c = GetParam();
+    expect_row(c, device_test::mean_of(c.scene, 100 * std::min(c.samples, 4096u)));
+}
+
 /// The reference is slower, and has double precision: the means of 16 batches, some ten times
 /// fewer samples.
 class ReferenceRows : public testing::TestWithParam<Case> {};
@@ -59,6 +69,7 @@ TEST_P(ReferenceRows, AreRight) {
 const auto name_of = [](const auto& info) { return info.param.name; };
 INSTANTIATE_TEST_SUITE_P(Known, Rows, testing::ValuesIn(rows()), name_of);
 INSTANTIATE_TEST_SUITE_P(Known, ReferenceRows, testing::ValuesIn(rows()), name_of);
+INSTANTIATE_TEST_SUITE_P(Deep, LongRows, testing::ValuesIn(rows()), name_of);
 
 } // namespace
 } // namespace tyndall::stability
