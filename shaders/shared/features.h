@@ -100,6 +100,7 @@ namespace tyndall::shared {
 #define TYNDALL_FEATURE_MEMBER(id, name, value) std::uint32_t name = value;
 struct Features {
     TYNDALL_FEATURES(TYNDALL_FEATURE_MEMBER)
+    bool operator==(const Features&) const = default;
 };
 #undef TYNDALL_FEATURE_MEMBER
 } // namespace tyndall::shared

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "reference/reference.h"
+#include "render/calibration.h"
 #include "stats/batch_film.h"
 
 #include <algorithm>
@@ -23,13 +24,26 @@ json effects_json(const Effects& effects) {
     return list;
 }
 
+/// The tuning of the options, and what they leave open by a calibration: one that is made now, or
+/// before.
+Tuning find_tuning(const gpu::Context& context, const Scene& scene, const DeviceOptions& options) {
+    const std::string key = tuning_key(compute_effects(scene).features);
+    const TuningFile file(gpu::default_cache_folder(), context.info());
+    if (options.calibrate) file.store(key, calibrate(context, scene, options.tuning));
+    const Tuning found = file.find(key).value_or(Tuning{});
+    Tuning tuning = options.tuning;
+    for (const auto value : {&Tuning::slots, &Tuning::run_length, &Tuning::workgroup_size})
+        if (tuning.*value == 0) tuning.*value = found.*value;
+    return tuning;
+}
+
 class DeviceEngine final : public Engine {
   public:
     DeviceEngine(const Scene& scene, const DeviceOptions& options)
         : context_({.device = options.device,
                     .validate = options.validate,
                     .cache_folder = gpu::default_cache_folder()}),
-          renderer_(context_, scene, options.tuning) {}
+          renderer_(context_, scene, find_tuning(context_, scene, options)) {}
 
     std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
                          const KeepGoing& keep_going) override {

@@ -58,6 +58,9 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
         ->add_option("--write-interval", o.write_interval,
                      "Write the image so far every so many seconds")
         ->check(CLI::PositiveNumber);
+    command->add_flag("--calibrate", o.device.calibrate,
+                      "First try, for seconds, how the device is fastest with such scenes; later "
+                      "renders use what was found");
     command->add_option("--stats", o.stats, "Write statistics as JSON");
     command->add_option("--replay", o.replay,
                         "Instead: trace one path, X,Y,SAMPLE, on the device and on the reference, "

@@ -28,6 +28,7 @@ struct DeviceOptions {
     std::string device; ///< Name, index, or "reference".
     bool validate = false;
     Tuning tuning;
+    bool calibrate = false; ///< Look for a faster tuning first, and keep it.
 };
 
 struct RenderOptions {

@@ -59,6 +59,9 @@ class Renderer {
     std::uint32_t render(std::uint32_t first_sample, std::uint32_t end_sample,
                          const KeepGoing& keep_going = {});
 
+    /// Cuts the work up in another way from the next render on.
+    void retune(const Tuning& tuning) { wavefront_.retune(tuning); }
+
     /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G
     /// variance.B; the variance is that of the mean, 0 while there are fewer than two batches, and
     /// the largest float where it is beyond that.

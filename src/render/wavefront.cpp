@@ -45,20 +45,14 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     : context_(&context), features_(tables.features(effects.features)),
       tuning_(choose_tuning(context, effects.features, tuning)), push_(tables.push),
       table_bytes_(tables.bytes) {
-    push_.slot_count = tuning_.slots;
-    push_.run_length = tuning_.run_length;
     push_.window = batch_window(push_.pixel_count);
-    const bool has_hierarchy = features_.geometry == GEOMETRY_BVH;
     const std::uint64_t pixels = push_.pixel_count;
     const gpu::Buffer::Options texels{.texels = true};
     scene_ = {context, "scene", tables.texels.size() * 16, texels};
-    paths_ = {context, "paths", std::uint64_t{tuning_.slots} * path_texels(features_) * 16, texels};
     batches_ = {context, "batches", pixels * push_.window * 16, texels};
     film_ = {context, "film",
              (pixels * FILM_TEXELS + fold_lanes(push_.pixel_count) * ERROR_TEXELS) * 16, texels};
     control_ = {context, "control", sizeof(Control), {.indirect = true}};
-    queues_ = {
-        context, "queues", has_hierarchy ? std::uint64_t{tuning_.slots} * QUEUE_COUNT * 4 : 16, {}};
     const VkFormat voxel_format =
         tables.voxels.is_half ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
     voxels_ = {context,
@@ -72,20 +66,38 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     gpu::upload(context, scene_, std::as_bytes(std::span(tables.texels)));
     gpu::upload(context, voxels_, tables.voxels.bytes);
 
-    descriptors_.emplace(
-        context,
-        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_, &log_},
-        static_cast<std::uint32_t>(sizeof(push_)));
-    features_.workgroup_size = tuning_.workgroup_size;
     features_.log_capacity = tuning_.log_capacity;
-    features_.storage_fallback = descriptors_->storage_fallback();
-    features_.texel_stores = descriptors_->texel_stores();
     features_.loops_test_first = context.info().driver.starts_with("SwiftShader");
-
+    allocate_paths();
     build_stages();
 }
 
+/// What depends on the tuning: state of paths, and with it the descriptors of everything.
+void Wavefront::allocate_paths() {
+    push_.slot_count = tuning_.slots;
+    push_.run_length = tuning_.run_length;
+    const std::uint64_t slots = tuning_.slots;
+    const bool has_hierarchy = features_.geometry == GEOMETRY_BVH;
+    paths_ = {*context_, "paths", slots * path_texels(features_) * 16, {.texels = true}};
+    queues_ = {*context_, "queues", has_hierarchy ? slots * QUEUE_COUNT * 4 : 16, {}};
+    descriptors_.emplace(
+        *context_,
+        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_, &log_},
+        static_cast<std::uint32_t>(sizeof(push_)));
+    features_.workgroup_size = tuning_.workgroup_size;
+    features_.storage_fallback = descriptors_->storage_fallback();
+    features_.texel_stores = descriptors_->texel_stores();
+}
+
+void Wavefront::retune(const Tuning& tuning) {
+    const shared::Features before = features_;
+    tuning_ = choose_tuning(*context_, features_, tuning);
+    allocate_paths();
+    if (features_ != before) build_stages();
+}
+
 void Wavefront::build_stages() {
+    stages_.clear();
     for (const StageKind& kind : stage_kinds()) {
         if (!kind.is_called_for(features_)) continue;
         stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,

@@ -18,6 +18,8 @@ struct Tuning {
     std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
     std::uint32_t workgroup_size = 0; ///< 0: chosen.
     std::uint32_t log_capacity = 0;   ///< Events of paths that are kept for a replay.
+
+    bool operator==(const Tuning&) const = default;
 };
 
 /// What happened to paths, as far as there was room.
@@ -32,6 +34,8 @@ class Wavefront {
     Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
               const Tuning& tuning);
 
+    /// Cuts the work up in another way from the next epoch on.
+    void retune(const Tuning& tuning);
     /// Of the random numbers from the next epoch on; before, it is the scene's.
     void set_seed(std::uint64_t seed);
 
@@ -75,6 +79,7 @@ class Wavefront {
         const StageKind* kind;
         gpu::Stage stage;
     };
+    void allocate_paths();
     void build_stages();
     void record_stage(gpu::Commands& commands, const BuiltStage& built) const;
     void record_fold_limits(gpu::Commands& commands, std::uint32_t limit,
