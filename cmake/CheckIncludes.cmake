@@ -17,7 +17,7 @@ set(rules
   "src/image     | core/ image/"
   "src/gpu       | core/ gpu/ shared/bindings.h shared/features.h"
   "src/render    | core/ volume/ phase/ scene/ image/ gpu/ stats/ render/ shared/ spirv/"
-  "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/health.h shared/interop.h"
+  "src/reference | core/ volume/ phase/ scene/ reference/ shared/random.h shared/sobol.h shared/health.h shared/interop.h"
   "src/stats     | core/ image/ stats/ shared/sample_histogram.h shared/schedule.h"
   "src/study     | core/ volume/ phase/ scene/ image/ gpu/ render/ stats/ study/ shared/records.h"
   "src/selftest  | core/ volume/ scene/ image/ gpu/ render/ selftest/ shared/ spirv/"

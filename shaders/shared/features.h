@@ -48,6 +48,9 @@ TYNDALL_CONSTANT uint MARCH_UNIFORM = 1u;
 TYNDALL_CONSTANT uint MARCH_JITTERED = 2u;
 TYNDALL_CONSTANT uint MARCH_EQUIANGULAR = 3u;
 
+TYNDALL_CONSTANT uint SAMPLER_INDEPENDENT = 0u; // random.h
+TYNDALL_CONSTANT uint SAMPLER_SOBOL = 1u;       // sobol.h
+
 TYNDALL_CONSTANT uint FILTER_BOX = 0u;
 TYNDALL_CONSTANT uint FILTER_TRIANGLE = 1u;
 TYNDALL_CONSTANT uint FILTER_TABLE = 2u;
@@ -93,7 +96,8 @@ TYNDALL_SHARED_END
     X(35, marches_shadows, 0)      /* shadow rays march through media that are tracked */          \
     X(36, march, 0) /* MARCH_*: paths march through media that scatter, and scatter once there */  \
     X(37, has_contacts, 1) /* some boundary may touch another surface */                           \
-    X(38, texel_stores, 0) /* bit n: buffer n is too large for a storage binding to write to */
+    X(38, texel_stores, 0) /* bit n: buffer n is too large for a storage binding to write to */    \
+    X(39, sampler_kind, 0) /* SAMPLER_* */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -11,6 +11,7 @@
 #define TYNDALL_SHARED_INLINE inline
 #define TYNDALL_CONSTANT inline constexpr
 namespace tyndall::shared {
+using glm::bitfieldReverse;
 using glm::clamp;
 using glm::ivec3;
 using glm::uvec2;

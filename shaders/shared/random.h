@@ -4,6 +4,9 @@
 // A random number is a pure function of (seed, pixel, sample, event, block, word). Nothing is
 // stored; any path can be replayed; no result depends on how the work was scheduled.
 //
+// Where a scene calls for Sobol' points, BLOCK_PATH and BLOCK_LIGHT have theirs (sobol.h), by the
+// same key; but event 0 takes its words in another order.
+//
 // An event is one segment of a path together with what happens at its end (a collision, a surface,
 // an interface, an escape). Event 0 is the camera; the first segment is event 1. Each event has two
 // blocks of four words:

@@ -7,6 +7,7 @@
 #include "shared/random.h"
 #include "shared/records.h"
 #include "shared/schedule.h"
+#include "shared/sobol.h"
 
 layout(local_size_x_id = 0) in;
 

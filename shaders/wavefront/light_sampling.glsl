@@ -253,7 +253,7 @@ LightSample sample_light(Path p, vec3 from, uvec4 words) {
     const LightRecord light = choose_light(words.x);
     LightSample s = LightSample(vec3(0, 0, 1), INFINITY, vec3(0), 0.0, NONE);
     if ((lights & LIGHTS_VOXELS) != 0u && light.kind == LIGHT_VOXELS) {
-        sample_voxel_light(light, from, draw(p, BLOCK_EMISSION), s);
+        sample_voxel_light(light, from, draw_random(p, BLOCK_EMISSION), s);
     } else if (lights == LIGHTS_AREA ||
                ((lights & LIGHTS_AREA) != 0u && light.kind >= LIGHT_AREA)) {
         sample_area_light(light, from, unit_float(words.y), unit_float(words.z), s);

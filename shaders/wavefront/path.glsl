@@ -141,14 +141,24 @@ void store_ticket(uint slot, Path p) {
 uvec2 seed = push.seed;
 uint max_depth = min(push.max_depth, event_limit); // each scattering is an event
 
-/// The four random words of a block of the path's present event.
-uvec4 draw(Path p, uint block) {
+/// The four random words of a block of the path's present event, whichever the sampler.
+uvec4 draw_random(Path p, uint block) {
     return random_block(seed, p.stream, p.path_sample, p.event, block);
+}
+/// Those of BLOCK_PATH or BLOCK_LIGHT of an event, by the sampler.
+uvec4 draw(Path p, uint event, uint block) {
+    if (sampler_kind == SAMPLER_INDEPENDENT)
+        return random_block(seed, p.stream, p.path_sample, event, block);
+    return sobol_block(seed, p.stream, p.path_sample, event, block);
+}
+uvec4 draw(Path p, uint block) {
+    return draw(p, p.event, block);
 }
 
 /// Starts the path of the present sample at the camera, by the words of event 0.
 void begin_sample(inout Path p, CameraRecord camera, uvec4 words) {
     p.event = 0u;
+    if (sampler_kind != SAMPLER_INDEPENDENT) words = pairs_in_order(words);
     const float u = unit_float(words.x), v = unit_float(words.y);
     const vec2 radius = vec2(camera.filter_x_radius, camera.filter_y_radius);
     vec2 offset;

@@ -242,7 +242,7 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
     vec3 result = vec3(1);
     bool goes_on = t < f.t_end;
     do {
-        const uvec4 words = draw(p, BLOCK_SHADOW + step);
+        const uvec4 words = draw_random(p, BLOCK_SHADOW + step);
         if (tau == 0.0) tau = exponential_variate(words.x);
         const bool collides = goes_on && next_collision(f, tau, t, bound);
         if (collides) {

@@ -42,8 +42,7 @@ void escape(inout Path p, CameraRecord camera) {
 void advance(inout Path p, CameraRecord camera, Medium medium) {
     const bool begins = p.status == STATUS_ENDED;
     const uint first_event = geometry == GEOMETRY_NONE ? 1u : 2u;
-    const uvec4 words =
-        random_block(seed, p.stream, p.path_sample, begins ? first_event : p.event, BLOCK_PATH);
+    const uvec4 words = draw(p, begins ? first_event : p.event, BLOCK_PATH);
     if (begins) {
         p.event = 0u;
         begin_sample(p, camera, draw(p, BLOCK_PATH));

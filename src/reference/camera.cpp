@@ -26,7 +26,7 @@ PathCamera::PathCamera(const Scene& scene)
 }
 
 CameraSample PathCamera::sample(int x, int y, const RandomPath& random) const {
-    const glm::uvec4 words = random.words(0, shared::BLOCK_PATH);
+    const glm::uvec4 words = random.camera_words();
     const FilterSample in_x = sample_filter(x_filter_, unit(words.x));
     const FilterSample in_y = sample_filter(y_filter_, unit(words.y));
     const dvec2 film_point(x + 0.5 + in_x.offset, y + 0.5 + in_y.offset);

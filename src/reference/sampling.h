@@ -1,7 +1,9 @@
 /// Random words, and the mappings from them to directions and discs that the renderers share.
 #pragma once
 
+#include "scene/scene.h"
 #include "shared/random.h"
+#include "shared/sobol.h"
 
 #include <cmath>
 #include <cstdint>
@@ -26,9 +28,18 @@ struct RandomPath {
     glm::uvec2 seed;
     std::uint32_t pixel = 0;
     std::uint32_t sample = 0;
+    Sampler sampler = Sampler::independent;
 
     glm::uvec4 words(std::uint32_t event, std::uint32_t block) const {
+        if (sampler == Sampler::sobol && block <= shared::BLOCK_LIGHT)
+            return shared::sobol_block(seed, pixel, sample, event, block);
         return shared::random_block(seed, pixel, sample, event, block);
+    }
+
+    /// Of event 0: two for the place in the pixel, two for that on the lens.
+    glm::uvec4 camera_words() const {
+        const glm::uvec4 own = words(0, shared::BLOCK_PATH);
+        return sampler == Sampler::sobol ? shared::pairs_in_order(own) : own;
     }
 };
 

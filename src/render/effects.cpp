@@ -323,7 +323,10 @@ void Collector::collect_camera() {
     f.has_clamp = scene_.film.max_component_value < std::numeric_limits<double>::infinity();
     f.is_orthographic = scene_.camera.kind == Camera::Kind::orthographic;
     constexpr std::array<const char*, 3> filters{"box", "triangle", "tabulated"};
+    f.sampler_kind = scene_.sampler == Sampler::sobol ? SAMPLER_SOBOL : SAMPLER_INDEPENDENT;
     add_value("pixel filter", filters[f.filter_kind]);
+    add_value("sampler", f.sampler_kind == SAMPLER_SOBOL ? "Sobol'" : "independent",
+              scene_.sampler_where.line > 0 ? place("Sampler", scene_.sampler_where) : "");
     add("depth of field", f.has_lens, "lensradius");
     add("radiance limit", f.has_clamp, "maxcomponentvalue");
 }

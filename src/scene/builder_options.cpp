@@ -107,6 +107,8 @@ void SceneBuilder::sampler(const std::string& type, const ParsedParameters& para
                            const SourceLocation& where) {
     Parameters p("sampler " + in_quotes(type), where, parameters, {}, diagnostics_);
     const SamplerSettings settings = read_sampler(type, p);
+    scene_.sampler = settings.sampler;
+    scene_.sampler_where = where;
     scene_.samples_per_pixel = settings.samples_per_pixel;
     sampler_seed_ = settings.seed;
 }

@@ -25,8 +25,9 @@ Integrator::Kind integrator_kind(std::string_view name);
 
 Integrator read_integrator(const std::string& type, Parameters& parameters);
 
-/// What is left of a sampler: Tyndall has one, independent random numbers.
+/// What is left of a sampler: all of pbrt's but "independent" become Owen-scrambled Sobol' points.
 struct SamplerSettings {
+    Sampler sampler = Sampler::independent;
     int samples_per_pixel = 16;
     std::optional<std::uint64_t> seed;
 };

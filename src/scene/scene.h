@@ -283,6 +283,12 @@ struct Integrator {
     std::uint32_t event_limit = 1u << 22;
 };
 
+/// Where the random numbers of the samples of a pixel come from.
+enum class Sampler {
+    independent, ///< shared/random.h
+    sobol        ///< Owen-scrambled Sobol' points: shared/sobol.h
+};
+
 struct Scene {
     std::string filename;
     std::string
@@ -291,6 +297,9 @@ struct Scene {
     Film film;
     PixelFilter filter;
     Integrator integrator;
+    Sampler sampler =
+        Sampler::independent; ///< Of a scene that was read: sobol, if it says nothing.
+    SourceLocation sampler_where;
     int samples_per_pixel = 16;
     std::uint64_t seed = 0;
 

@@ -158,7 +158,7 @@ class SceneBuilder {
 
     InputFiles& files_;
     Diagnostics& diagnostics_;
-    Scene scene_;
+    Scene scene_{.sampler = Sampler::sobol};
     bool in_world_ = false;
     bool reported_missing_world_begin_ = false;
     GraphicsState state_;

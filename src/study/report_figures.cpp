@@ -54,8 +54,9 @@ std::vector<const TechniqueResult*> leading(const Results& results,
         if (choice.time.is_finite()) add(choice.technique);
     const auto marches = of_series(results, "march-uniform");
     if (!marches.empty()) add(marches.back());
-    for (const char* name : {"march-uniform-16", "orders-1", "orders-4",
-                             "volpath-no-light-sampling", "volpath-analog"})
+    for (const char* name :
+         {"march-uniform-16", "orders-1", "orders-4", "volpath-no-light-sampling", "volpath-analog",
+          "volpath-sobol", "volpath-independent"})
         add(results.find(name));
     return list;
 }

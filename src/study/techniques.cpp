@@ -23,10 +23,25 @@ bool has_places_of_light(const shared::Features& f) {
     return f.lights & (shared::LIGHTS_POINT | shared::LIGHTS_SPOT | shared::LIGHTS_AREA);
 }
 
+/// The sampler that the scene does not have.
+Technique other_sampler(const Scene& scene) {
+    if (scene.sampler == Sampler::independent)
+        return {.name = "volpath-sobol",
+                .title = "volpath on Sobol' points",
+                .is_unbiased = true,
+                .apply = [](Scene& s) { s.sampler = Sampler::sobol; }};
+    return {.name = "volpath-independent",
+            .title = "volpath on independent random numbers",
+            .is_unbiased = true,
+            .apply = [](Scene& s) { s.sampler = Sampler::independent; }};
+}
+
 /// The baseline, and what each of its parts is worth.
 void list_estimators(const Scene& scene, const Effects& effects, std::vector<Technique>& list) {
     const shared::Features& f = effects.features;
     list.push_back({.name = kBaseline, .title = "volpath", .is_unbiased = true, .apply = {}});
+    const bool has_surfaces = f.surface_queues & ~(1u << shared::QUEUE_INTERFACE);
+    if (f.has_scattering || has_surfaces) list.push_back(other_sampler(scene));
     if (f.lights && !has_points_of_light(f))
         list.push_back({.name = "volpath-no-light-sampling",
                         .title = "volpath without light sampling",

@@ -93,6 +93,8 @@ class Subject {
 /// width; how often none is stated.
 struct Coverage {
     double stated = 0, half = 0, twice = 0, none = 0;
+    double below = 0,
+           below_half = 0; ///< How often the error is below the upper end, or half of it.
 
     void add(const std::optional<ErrorEstimate>& estimate, double error) {
         if (!estimate) {
@@ -105,6 +107,8 @@ struct Coverage {
                    error <= e * std::pow(estimate->high / e, width);
         };
         stated += covers(1);
+        below += error <= estimate->high;
+        below_half += error <= 0.5 * estimate->high;
         half += covers(0.5);
         twice += covers(2);
     }
@@ -118,7 +122,8 @@ Coverage coverage(Subject& subject, int seeds, std::uint32_t samples) {
         subject.renderer.render(0, samples);
         covered.add(subject.renderer.error(), subject.true_error());
     }
-    for (double* count : {&covered.stated, &covered.half, &covered.twice})
+    for (double* count :
+         {&covered.stated, &covered.half, &covered.twice, &covered.below, &covered.below_half})
         *count /= seeds - covered.none;
     covered.none /= seeds;
     return covered;
@@ -168,6 +173,21 @@ TEST_F(ErrorTest, CoversAsOftenAsItSaysThinAndThick) {
         // The control: held against another picture, errors are others.
         Subject wrong(box_of_tosses(thickness), 0.5 * std::exp(-thickness));
         EXPECT_LT(coverage(wrong, 20, 256).stated, 0.1) << "no teeth";
+    }
+}
+
+/// Batches of Sobol' points know nothing of how well they fit together: errors are stated too
+/// large, but not by much, and never too small.
+TEST_F(ErrorTest, StatesNoLessThanTheErrorOnSobolPoints) {
+    for (Scene scene : {plain_scene(), sunlit_fog(1, 0.3)}) {
+        scene.sampler = Sampler::sobol;
+        for (const std::uint32_t samples : {16u, 128u}) {
+            Subject subject(scene, 100 * samples);
+            const Coverage found = coverage(subject, 100, samples);
+            EXPECT_GT(found.below, 0.95) << samples;
+            EXPECT_LT(found.below_half, 0.5) << "no teeth, at " << samples;
+            EXPECT_LT(found.none, 0.05);
+        }
     }
 }
 

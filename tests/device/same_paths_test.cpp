@@ -130,6 +130,15 @@ TEST_F(SamePathsTest, WhereTheyMarch) {
         }
 }
 
+TEST_F(SamePathsTest, OnSobolPoints) {
+    for (Scene scene : {smoke_stage(Rgb(0.5, 3, 20)), air_stage(true)}) {
+        scene.sampler = Sampler::sobol;
+        scene.camera.lens_radius = 0.1;
+        scene.camera.focal_distance = 6;
+        expect_same_paths(scene);
+    }
+}
+
 TEST_F(SamePathsTest, WithoutLightSampling) {
     Scene scene = smoke_stage(Rgb(0.5, 3, 20));
     scene.integrator.samples_lights = false;

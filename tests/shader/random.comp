@@ -13,6 +13,9 @@ void main() {
     } else if (wanted() == 1u) { // random_block(seed; pixel, sample, event, block)
         const uvec4 at = fetch_scene(i);
         emit(i, random_block(push.seed, at.x, at.y, at.z, at.w));
+    } else if (wanted() == 3u) { // sobol_block, likewise
+        const uvec4 at = fetch_scene(i);
+        emit(i, sobol_block(push.seed, at.x, at.y, at.z, at.w));
     } else {
         emit(i, vec4(unit_float(fetch_scene(i).x)));
     }

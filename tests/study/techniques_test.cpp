@@ -40,9 +40,10 @@ TEST(Techniques, AreThoseThatMakeSense) {
 
     const std::set<std::string> foggy = names_of(foggy_scene());
     for (const char* name :
-         {"volpath", "volpath-analog", "volpath-no-light-sampling", "march-uniform-1024",
-          "march-jittered-4", "march-equiangular-16", "orders-1", "orders-64", "phase-schlick",
-          "without-media", "without-scattering", "without-environment", "without-surfaces"})
+         {"volpath", "volpath-sobol", "volpath-analog", "volpath-no-light-sampling",
+          "march-uniform-1024", "march-jittered-4", "march-equiangular-16", "orders-1", "orders-64",
+          "phase-schlick", "without-media", "without-scattering", "without-environment",
+          "without-surfaces"})
         EXPECT_TRUE(foggy.count(name)) << name;
     for (const char* name : {"cells-4", "without-lens", "without-colour", "without-emission",
                              "phase-henyey-greenstein"})
@@ -67,6 +68,7 @@ TEST(Techniques, ChangeTheSceneAndNothingElse) {
     EXPECT_EQ(changed("march-uniform-16").integrator.steps, 16);
     EXPECT_EQ(changed("march-uniform-16").integrator.max_depth, scene.integrator.max_depth);
     EXPECT_FALSE(changed("volpath-no-light-sampling").integrator.samples_lights);
+    EXPECT_EQ(changed("volpath-sobol").sampler, Sampler::sobol);
     EXPECT_EQ(changed("without-scattering").media[0].sigma_s, Rgb(0));
     EXPECT_EQ(changed("without-scattering").media[0].sigma_a, Rgb(1));
     EXPECT_EQ(changed("without-environment").lights.size(), 0u);

@@ -150,10 +150,13 @@ TEST(SamplerType, GivesCountAndSeed) {
     for (const char* name : {"zsobol", "sobol", "paddedsobol", "halton", "pmj02bn"}) {
         const std::string sampler = "Sampler \"" + std::string(name) + "\"";
         EXPECT_EQ(samples(sampler), 16) << name;
+        EXPECT_EQ(read_options(sampler).sampler, Sampler::sobol) << name;
         EXPECT_EQ(samples(sampler + " \"integer pixelsamples\" 7"), 7) << name;
         EXPECT_EQ(read_options(sampler + " \"integer seed\" 3").seed, 3u) << name;
     }
+    EXPECT_EQ(read_options("").sampler, Sampler::sobol);
     EXPECT_EQ(samples("Sampler \"independent\""), 4);
+    EXPECT_EQ(read_options("Sampler \"independent\"").sampler, Sampler::independent);
     EXPECT_EQ(samples("Sampler \"stratified\" \"integer xsamples\" 3 \"bool jitter\" false"), 12);
     EXPECT_TRUE(
         read_options("Sampler \"zsobol\" \"string randomization\" \"none\"").warnings.empty());
