@@ -283,6 +283,7 @@ struct Control {
     DispatchSize queue_dispatch[QUEUE_COUNT];
     DispatchSize fold_dispatch;
     uint queue_size[QUEUE_COUNT];
+    uint queue_total[QUEUE_COUNT]; ///< Of the rounds before: what stages were given.
     uint next_ticket;    ///< Work item = ticket: batch ticket / pixel_count, pixel ticket %
                          ///< pixel_count.
     uint ticket_limit;   ///< Tickets below may be worked on.

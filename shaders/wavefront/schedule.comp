@@ -23,6 +23,7 @@ uint most_folds() {
 void main() {
     if (gl_GlobalInvocationID.x != 0u) return;
     for (uint queue = 0u; queue < QUEUE_COUNT; ++queue) {
+        control.queue_total[queue] += control.queue_size[queue];
         control.queue_size[queue] = 0u;
         control.queue_dispatch[queue] = DispatchSize(0u, 1u, 1u);
     }

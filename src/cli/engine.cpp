@@ -78,8 +78,10 @@ void DeviceEngine::describe(json& stats) const {
     stats["seconds"]["compile"] = renderer_.compile_seconds();
     stats["pipeline_cache_bytes"] = context_.pipelines().loaded_bytes();
     for (const StageTime& stage : renderer_.stage_times())
-        stats["stages"].push_back(
-            {{"name", stage.name}, {"dispatches", stage.dispatches}, {"seconds", stage.seconds}});
+        stats["stages"].push_back({{"name", stage.name},
+                                   {"dispatches", stage.dispatches},
+                                   {"paths", stage.paths},
+                                   {"seconds", stage.seconds}});
     for (const auto& [name, bytes] : renderer_.wavefront().memory())
         stats["memory_bytes"][name] = bytes;
 }

@@ -65,9 +65,7 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
     error_.reset();
     histogram_ = {};
     health_ = {};
-    stage_times_.clear();
-    for (const std::string& name : wavefront_.stage_names())
-        stage_times_.push_back({.name = name});
+    stage_times_ = {wavefront_.stages(), wavefront_.tuning().slots};
     folded_batches_ = contrasted_batches_ = batches_.first();
     look_batch_ = keep_going ? batches_.next_look(batches_.first()) : batches_.end();
     // Tickets are 32-bit words: an epoch has as many batches as they can number.
@@ -76,6 +74,7 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
         const std::uint32_t count = std::min(per_epoch, batches_.end() - folded_batches_);
         epoch_batch_ = folded_batches_;
         health_.restart();
+        stage_times_.restart();
         wavefront_.begin_epoch(epoch_batch_, count, first_sample, end_sample, first_epoch);
         if (!run_epoch(count, keep_going)) break;
     }
@@ -97,17 +96,14 @@ void Renderer::land(Flight& flight) {
     Control control;
     std::memcpy(&control, flight.control.mapped(), sizeof(control));
     take_in(control);
-    const std::vector<double> seconds = flight.clock.intervals();
-    for (std::size_t i = 0; i < stage_times_.size(); ++i) {
-        stage_times_[i].dispatches += flight.rounds;
-        stage_times_[i].seconds += seconds[i] * flight.rounds;
-    }
+    stage_times_.add(flight.clock.intervals(), flight.rounds);
 }
 
 void Renderer::take_in(const Control& control) {
     // The last round's update_film has folded fold_count batches on top of folded_batches.
     folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
     health_.take_in(control);
+    stage_times_.take_in(control);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
     samples_done_ = samples();
     const std::uint32_t window = wavefront_.window(), pending = folded_batches_ - epoch_batch_;
@@ -164,8 +160,8 @@ bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
 
 /// Runs rounds until every batch of the epoch is in the film. False if told to stop before.
 bool Renderer::run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going) {
-    std::array<Flight, 2> flights{Flight(*context_, stage_times_.size()),
-                                  Flight(*context_, stage_times_.size())};
+    const std::size_t stages = stage_times_.list().size();
+    std::array<Flight, 2> flights{Flight(*context_, stages), Flight(*context_, stages)};
     submit(flights[0]);
     Clock::time_point last = Clock::now();
     for (std::size_t i = 0;; i ^= 1) {

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "render/batch_range.h"
 #include "render/health_counts.h"
+#include "render/stage_times.h"
 #include "render/wavefront.h"
 #include "stats/sample_tail.h"
 
@@ -34,13 +35,6 @@ using KeepGoing = std::function<bool(const Progress&)>;
 
 using shared::Health;
 using shared::kHealthNames;
-
-/// What a stage took so far.
-struct StageTime {
-    std::string name;
-    std::uint64_t dispatches = 0;
-    double seconds = 0; ///< Of the device; estimated from the rounds that were timed.
-};
 
 class Renderer {
   public:
@@ -79,7 +73,7 @@ class Renderer {
     const Wavefront& wavefront() const { return wavefront_; }
     /// What went wrong so far.
     const Health& health() const { return health_.health(); }
-    const std::vector<StageTime>& stage_times() const { return stage_times_; }
+    const std::vector<StageTime>& stage_times() const { return stage_times_.list(); }
     /// Seconds that packing the scene and building its hierarchy took, and compiling the stages.
     double build_seconds() const { return build_seconds_; }
     double compile_seconds() const { return compile_seconds_; }
@@ -114,7 +108,7 @@ class Renderer {
     std::uint32_t contrasted_batches_ = 0; ///< End of the batches in contrasts_.
     std::optional<stats::ErrorEstimate> error_;
     stats::SampleHistogram histogram_{};
-    std::vector<StageTime> stage_times_;
+    StageTimes stage_times_;
     std::uint32_t rounds_ = 1; ///< Per submission, so that one takes about kSubmitSeconds.
 };
 

@@ -244,11 +244,11 @@ std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {
     return bytes;
 }
 
-std::vector<std::string> Wavefront::stage_names() const {
-    std::vector<std::string> names;
+std::vector<const StageKind*> Wavefront::stages() const {
+    std::vector<const StageKind*> kinds;
     for (const BuiltStage& built : stages_)
-        names.push_back(built.stage.name());
-    return names;
+        kinds.push_back(built.kind);
+    return kinds;
 }
 
 } // namespace tyndall

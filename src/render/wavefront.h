@@ -72,7 +72,7 @@ class Wavefront {
     const shared::Features& features() const { return features_; }
     std::vector<std::pair<std::string, std::uint64_t>> memory() const;
     /// In the order in which they run.
-    std::vector<std::string> stage_names() const;
+    std::vector<const StageKind*> stages() const;
 
   private:
     struct BuiltStage {

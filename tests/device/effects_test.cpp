@@ -14,8 +14,10 @@ using namespace support;
 
 std::set<std::string> stages_of(const Scene& scene) {
     const Renderer renderer(context(), scene);
-    const auto names = renderer.wavefront().stage_names();
-    return {names.begin(), names.end()};
+    std::set<std::string> names;
+    for (const StageKind* stage : renderer.wavefront().stages())
+        names.insert(stage->name);
+    return names;
 }
 
 bool has_stage(const Scene& scene, const std::string& name) {

@@ -120,9 +120,10 @@ TEST_F(MarchTest, IsTheSameForAnyRunLength) {
 
 TEST_F(MarchTest, TakesThePlaceOfTracking) {
     const Renderer renderer(context(), marching(busy_scene(), 4));
-    const auto names = renderer.wavefront().stage_names();
-    const auto has = [&](const char* name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
+    const auto stages = renderer.wavefront().stages();
+    const auto has = [&](const std::string& name) {
+        return std::any_of(stages.begin(), stages.end(),
+                           [&](const StageKind* stage) { return stage->name == name; });
     };
     EXPECT_TRUE(has("march_medium"));
     EXPECT_FALSE(has("shade_volume"));

@@ -73,8 +73,8 @@ TEST_F(TechniqueTest, LightsAreFoundWithoutLightSampling) {
         expect_agreement(device_batches(blind, 64), device_batches(scene, 16),
                          scene.film.bounds.width(), 0.3);
         const Renderer renderer(context(), blind);
-        for (const std::string& name : renderer.wavefront().stage_names())
-            EXPECT_NE(name, "trace_shadow");
+        for (const StageKind* stage : renderer.wavefront().stages())
+            EXPECT_STRNE(stage->name, "trace_shadow");
     }
 }
 

@@ -173,11 +173,14 @@ TEST_F(Layout, EveryFieldOfTheControlBlockArrives) {
     EXPECT_EQ(control.fold_dispatch.z, next++);
     for (std::uint32_t size : control.queue_size)
         EXPECT_EQ(size, next++);
+    for (std::uint32_t total : control.queue_total)
+        EXPECT_EQ(total, next++);
     EXPECT_EQ(control.next_ticket, next++);
     EXPECT_EQ(control.ticket_limit, next++);
     EXPECT_EQ(control.folded_batches, next++);
     EXPECT_EQ(control.fold_count, next++);
     EXPECT_EQ(control.fold_limit, next++);
+    EXPECT_EQ(control.fold_least, next++);
     for (std::uint32_t finished : control.finished)
         EXPECT_EQ(finished, next++);
     for (std::uint32_t health : control.health)

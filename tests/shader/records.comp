@@ -103,11 +103,14 @@ void fill_control() {
     control.fold_dispatch = next_size();
     for (uint i = 0u; i < QUEUE_COUNT; ++i)
         control.queue_size[i] = count++;
+    for (uint i = 0u; i < QUEUE_COUNT; ++i)
+        control.queue_total[i] = count++;
     control.next_ticket = count++;
     control.ticket_limit = count++;
     control.folded_batches = count++;
     control.fold_count = count++;
     control.fold_limit = count++;
+    control.fold_least = count++;
     for (uint i = 0u; i < uint(BATCH_WINDOW_MAX); ++i)
         control.finished[i] = count++;
     for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)

@@ -1,0 +1,47 @@
+/// Where the time of a render goes: for each stage its share of the device's time, the paths that
+/// it is given each time as a share of the slots, and what it takes for one.
+#include "bench/bench.h"
+
+#include <array>
+#include <benchmark/benchmark.h>
+
+namespace tyndall::bench {
+namespace {
+
+constexpr std::array<const char*, 5> kScenes{"homogeneous-cube", "chromatic-ball", "fog-room",
+                                             "smoke-grid", "vdb-smoke"};
+
+void tell_stages(benchmark::State& state, const Renderer& renderer, double samples) {
+    const double slots = renderer.wavefront().tuning().slots;
+    double all = 0;
+    for (const StageTime& stage : renderer.stage_times())
+        all += stage.seconds;
+    for (const StageTime& stage : renderer.stage_times()) {
+        state.counters[stage.name + ".percent"] = 100 * stage.seconds / all;
+        if (stage.paths == 0) continue;
+        const double paths = double(stage.paths);
+        state.counters[stage.name + ".occupancy"] = paths / (double(stage.dispatches) * slots);
+        state.counters[stage.name + ".per_sample"] = paths / samples;
+        state.counters[stage.name + ".ns_per_path"] = stage.seconds / paths * 1e9;
+    }
+}
+
+void profile(benchmark::State& state) {
+    constexpr int size = 256;
+    constexpr std::uint32_t samples = 64;
+    const char* scene = kScenes[static_cast<std::size_t>(state.range(0))];
+    Renderer renderer(context(), read_bench_scene(std::string("device/pbrt/") + scene, size));
+    renderer.render(0, 1);
+    for (auto _ : state)
+        renderer.render(0, samples);
+    tell_stages(state, renderer, double(size) * size * samples);
+    state.counters["state_bytes_per_path"] = 16.0 * path_texels(renderer.wavefront().features());
+    state.SetLabel(scene);
+}
+BENCHMARK(profile)
+    ->DenseRange(0, int(kScenes.size()) - 1)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace tyndall::bench
