@@ -4,6 +4,7 @@
 #include "volume/majorants.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tyndall::selftest {
@@ -16,7 +17,7 @@ constexpr float kHalfWidth = 1e4F; ///< Of slabs that are 1 thick.
 /// A ball of radius 1, or other geometry, under a sky of radiance 1.
 Scene lit_scene(int pixels = 16) {
     Scene scene = empty_scene(pixels, 1.2);
-    scene.integrator.max_depth = 1'000'000;
+    scene.integrator.max_depth = std::numeric_limits<int>::max(); // paths end by physics
     scene.camera.world_from_camera = translation({0, 0, -4});
     add_infinite(scene);
     return scene;
