@@ -50,6 +50,7 @@ TYNDALL_CONSTANT uint MARCH_EQUIANGULAR = 3u;
 
 TYNDALL_CONSTANT uint SAMPLER_INDEPENDENT = 0u; // random.h
 TYNDALL_CONSTANT uint SAMPLER_SOBOL = 1u;       // sobol.h
+TYNDALL_CONSTANT uint SAMPLER_ZSOBOL = 2u;      // likewise, one sequence for all pixels
 
 TYNDALL_CONSTANT uint FILTER_BOX = 0u;
 TYNDALL_CONSTANT uint FILTER_TRIANGLE = 1u;
@@ -97,7 +98,8 @@ TYNDALL_SHARED_END
     X(36, march, 0) /* MARCH_*: paths march through media that scatter, and scatter once there */  \
     X(37, has_contacts, 1) /* some boundary may touch another surface */                           \
     X(38, texel_stores, 0) /* bit n: buffer n is too large for a storage binding to write to */    \
-    X(39, sampler_kind, 0) /* SAMPLER_* */
+    X(39, sampler_kind, 0) /* SAMPLER_* */                                                         \
+    X(40, zsobol_bits, 4)  /* Scene::zsobol_bits */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

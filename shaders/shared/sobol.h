@@ -65,6 +65,28 @@ TYNDALL_SHARED_INLINE uvec4 sobol_block(uvec2 seed, uint pixel, uint path_sample
                  bitfieldReverse(scramble_reversed(reversed_sobol(a), s.w)));
 }
 
+/// The bits of x and y (below 2^16) in turns, those of x being the lower ones.
+TYNDALL_SHARED_INLINE uint morton_code(uint x, uint y) {
+    uvec2 v = uvec2(x, y);
+    v = (v | v << 8u) & 0x00FF00FFu;
+    v = (v | v << 4u) & 0x0F0F0F0Fu;
+    v = (v | v << 2u) & 0x33333333u;
+    v = (v | v << 1u) & 0x55555555u;
+    return v.x | v.y << 1u;
+}
+
+/// As sobol_block, on one sequence for all pixels in the order of their Morton codes, of which each
+/// has 2^bits (0 to 31) points (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte
+/// Carlo Sampling Error via Hierarchical Ordering of Pixels"): then squares of pixels together have
+/// points that are spread evenly, too, and their errors cancel. A pixel that takes more samples has
+/// them from other sequences, as have squares of 2^(32 - bits) pixels.
+TYNDALL_SHARED_INLINE uvec4 zsobol_block(uvec2 seed, uint morton, uint path_sample, uint event,
+                                         uint block, uint bits) {
+    const uint round = path_sample >> bits << bits;
+    return sobol_block(seed, morton >> 1u >> (31u - bits) | round,
+                       morton << bits | (path_sample - round), event, block);
+}
+
 /// The words of event 0 in another order, so that (0, 1) and (2, 3) are the pairs.
 TYNDALL_SHARED_INLINE uvec4 pairs_in_order(uvec4 words) {
     return uvec4(words.y, words.z, words.x, words.w);

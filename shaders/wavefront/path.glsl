@@ -25,7 +25,7 @@ struct Path {
     vec3 radiance; ///< So far, of the path.
     float pdf; ///< Of the last direction, per steradian; 0: none, or none that lights could match.
     uvec2 xy;  ///< Pixel in the picture.
-    uint stream; ///< Index of the pixel in the picture, for random numbers.
+    uint stream; ///< The pixel in the picture, for random numbers: pixel_stream.
     uint path_sample;
     uint batch_end;
     float weight; ///< Of the pixel filter: 1 or -1.
@@ -104,10 +104,16 @@ void store_radiance(uint slot, Path p) {
     store_colour(PATH_RADIANCE, slot, p.radiance, floatBitsToUint(p.pdf));
 }
 
+/// What tells the random numbers of a pixel from those of others.
+uint pixel_stream(uvec2 xy) {
+    if (sampler_kind == SAMPLER_ZSOBOL) return morton_code(xy.x, xy.y);
+    return xy.y * push.full_width + xy.x;
+}
+
 void load_sample(uint slot, inout Path p) {
     const uvec4 a = load_path(PATH_SAMPLE, slot);
     p.xy = uvec2(a.x & 0xFFFFu, a.x >> 16);
-    p.stream = p.xy.y * push.full_width + p.xy.x;
+    p.stream = pixel_stream(p.xy);
     p.path_sample = a.y;
     p.batch_end = a.z;
     p.weight = filter_kind == FILTER_TABLE ? uintBitsToFloat(a.w) : 1.0;
@@ -149,6 +155,8 @@ uvec4 draw_random(Path p, uint block) {
 uvec4 draw(Path p, uint event, uint block) {
     if (sampler_kind == SAMPLER_INDEPENDENT)
         return random_block(seed, p.stream, p.path_sample, event, block);
+    if (sampler_kind == SAMPLER_ZSOBOL)
+        return zsobol_block(seed, p.stream, p.path_sample, event, block, zsobol_bits);
     return sobol_block(seed, p.stream, p.path_sample, event, block);
 }
 uvec4 draw(Path p, uint block) {
@@ -256,7 +264,7 @@ void start_ticket(inout Path p) {
     uint column;
     const uint row = divide(p.pixel, push.width, column);
     p.xy = uvec2(push.x0 + column, push.y0 + row);
-    p.stream = p.xy.y * push.full_width + p.xy.x;
+    p.stream = pixel_stream(p.xy);
     p.path_sample = max(push.first_sample, batch_first_sample(push.first_batch + batch));
     p.batch_end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));
     p.sum = vec4(0);

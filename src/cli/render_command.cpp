@@ -26,10 +26,11 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The command of this render, without what does not tell which paths are traced.
-std::string replay_command(const SceneOptions& o, const DeviceOptions& device) {
+std::string replay_command(const SceneOptions& o, const DeviceOptions& device, Sampler sampler) {
     std::string command = "tyndall render " + in_shell_quotes(o.scene);
     if (!device.device.empty()) command += " --device " + in_shell_quotes(device.device);
     if (o.seed) command += fmt::format(" --seed {}", *o.seed);
+    if (o.spp && sampler == Sampler::zsobol) command += fmt::format(" --spp {}", *o.spp);
     if (o.size) command += " --size " + *o.size;
     if (o.max_depth) command += fmt::format(" --maxdepth {}", *o.max_depth);
     if (o.integrator) command += " --integrator " + *o.integrator;
@@ -278,9 +279,10 @@ int Job::run() {
     write_images(report_.film);
     if (!options_.aovs.empty() && report_.stopped_by != "signal") write_layers();
     if (!options_.quiet) std::fputs(closing_text(scene_, report_).c_str(), stderr);
-    std::fputs(
-        health_text(engine_->health(), replay_command(options_.scene, options_.device)).c_str(),
-        stderr);
+    std::fputs(health_text(engine_->health(),
+                           replay_command(options_.scene, options_.device, scene_.sampler))
+                   .c_str(),
+               stderr);
     if (!options_.stats.empty()) write_stats(options_.stats, scene_, *engine_, report_);
     if (engine_->validation_messages() > 0)
         throw Error(ExitStatus::failed, fmt::format("the validation layer had {} messages",

@@ -65,8 +65,11 @@ glm::dvec4 ReferenceRenderer::Parts::sample(int x, int y, std::uint32_t index,
     const Film& film = scene.film;
     const glm::uvec2 seed(static_cast<std::uint32_t>(scene.seed),
                           static_cast<std::uint32_t>(scene.seed >> 32));
-    const RandomPath random{seed, static_cast<std::uint32_t>(y * film.width + x), index,
-                            scene.sampler};
+    const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+    const std::uint32_t pixel = scene.sampler == Sampler::zsobol
+                                    ? shared::morton_code(column, row)
+                                    : row * static_cast<std::uint32_t>(film.width) + column;
+    const RandomPath random{seed, pixel, index, scene.sampler, scene.zsobol_bits()};
     const CameraSample camera_sample = camera.sample(x, y, random);
     // The imaging ratio, then pbrt's clamp, which keeps the colour.
     Rgb radiance = tracer.radiance(camera_sample.ray, random, report) *

@@ -26,20 +26,23 @@ struct Ray {
 /// The random numbers of one path.
 struct RandomPath {
     glm::uvec2 seed;
-    std::uint32_t pixel = 0;
+    std::uint32_t pixel = 0; ///< Its index in the picture; for zsobol, its Morton code.
     std::uint32_t sample = 0;
     Sampler sampler = Sampler::independent;
+    std::uint32_t zsobol_bits = 0; ///< Scene::zsobol_bits
 
     glm::uvec4 words(std::uint32_t event, std::uint32_t block) const {
         if (sampler == Sampler::sobol && block <= shared::BLOCK_LIGHT)
             return shared::sobol_block(seed, pixel, sample, event, block);
+        if (sampler == Sampler::zsobol && block <= shared::BLOCK_LIGHT)
+            return shared::zsobol_block(seed, pixel, sample, event, block, zsobol_bits);
         return shared::random_block(seed, pixel, sample, event, block);
     }
 
     /// Of event 0: two for the place in the pixel, two for that on the lens.
     glm::uvec4 camera_words() const {
         const glm::uvec4 own = words(0, shared::BLOCK_PATH);
-        return sampler == Sampler::sobol ? shared::pairs_in_order(own) : own;
+        return sampler == Sampler::independent ? own : shared::pairs_in_order(own);
     }
 };
 

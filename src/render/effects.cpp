@@ -323,9 +323,11 @@ void Collector::collect_camera() {
     f.has_clamp = scene_.film.max_component_value < std::numeric_limits<double>::infinity();
     f.is_orthographic = scene_.camera.kind == Camera::Kind::orthographic;
     constexpr std::array<const char*, 3> filters{"box", "triangle", "tabulated"};
-    f.sampler_kind = scene_.sampler == Sampler::sobol ? SAMPLER_SOBOL : SAMPLER_INDEPENDENT;
+    f.sampler_kind = SAMPLER_INDEPENDENT + static_cast<std::uint32_t>(scene_.sampler);
+    f.zsobol_bits = scene_.sampler == Sampler::zsobol ? scene_.zsobol_bits() : 0;
     add_value("pixel filter", filters[f.filter_kind]);
-    add_value("sampler", f.sampler_kind == SAMPLER_SOBOL ? "Sobol'" : "independent",
+    constexpr std::array<const char*, 3> samplers{"independent", "Sobol'", "Sobol', Z order"};
+    add_value("sampler", samplers[f.sampler_kind],
               scene_.sampler_where.line > 0 ? place("Sampler", scene_.sampler_where) : "");
     add("depth of field", f.has_lens, "lensradius");
     add("radiance limit", f.has_clamp, "maxcomponentvalue");

@@ -158,7 +158,9 @@ SamplerSettings read_sampler(const std::string& type, Parameters& parameters) {
         "randomization", {"fastowen", "owen", "permutedigits", "none"}, {}};
     SamplerSettings settings;
     if (!check_type(names, type, parameters.where(), parameters.diagnostics())) return settings;
-    settings.sampler = type == "independent" ? Sampler::independent : Sampler::sobol;
+    settings.sampler = type == "independent" ? Sampler::independent
+                       : type == "zsobol"    ? Sampler::zsobol
+                                             : Sampler::sobol;
     if (type == "stratified") {
         const std::int64_t x = parameters.get_integer("xsamples", 4, require::positive);
         const std::int64_t y = parameters.get_integer("ysamples", 4, require::positive);

@@ -25,7 +25,8 @@ Integrator::Kind integrator_kind(std::string_view name);
 
 Integrator read_integrator(const std::string& type, Parameters& parameters);
 
-/// What is left of a sampler: all of pbrt's but "independent" become Owen-scrambled Sobol' points.
+/// What is left of a sampler: all of pbrt's but "independent" and "zsobol" become
+/// Owen-scrambled Sobol' points.
 struct SamplerSettings {
     Sampler sampler = Sampler::independent;
     int samples_per_pixel = 16;

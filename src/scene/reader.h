@@ -24,9 +24,9 @@ struct ReadOptions {
 /// Reads a scene file (.pbrt, .pbrt.gz) and all files that it names.
 ///
 /// Names of files start at the folder of `file`, as in pbrt, or at the folder of the file they
-/// stand in. All samplers of pbrt but "independent" become Owen-scrambled Sobol' points of the same
-/// count and seed. Options of pbrt that Tyndall has no use for, and what pbrt itself only warns of,
-/// are told in Scene::warnings.
+/// stand in. All samplers of pbrt but "independent" and "zsobol" become Owen-scrambled Sobol'
+/// points of the same count and seed. Options of pbrt that Tyndall has no use for, and what pbrt
+/// itself only warns of, are told in Scene::warnings.
 ///
 /// @throws SceneError with all errors found, but not many more than 20: syntax, unknown or unused
 ///         parameters, values out of range, names that are not defined, files that cannot be read,

@@ -13,6 +13,7 @@
 #include "volume/grid.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -286,7 +287,8 @@ struct Integrator {
 /// Where the random numbers of the samples of a pixel come from.
 enum class Sampler {
     independent, ///< shared/random.h
-    sobol        ///< Owen-scrambled Sobol' points: shared/sobol.h
+    sobol,       ///< Owen-scrambled Sobol' points: shared/sobol.h
+    zsobol       ///< Likewise, with errors that cancel between neighbours.
 };
 
 struct Scene {
@@ -301,6 +303,13 @@ struct Scene {
         Sampler::independent; ///< Of a scene that was read: sobol, if it says nothing.
     SourceLocation sampler_where;
     int samples_per_pixel = 16;
+
+    /// zsobol: so many samples of a pixel, as a power of two, are of the sequence of all pixels.
+    std::uint32_t zsobol_bits() const {
+        return static_cast<std::uint32_t>(
+            std::bit_width(static_cast<std::uint32_t>(samples_per_pixel - 1)));
+    }
+
     std::uint64_t seed = 0;
 
     std::vector<Medium> media;

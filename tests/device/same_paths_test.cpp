@@ -131,8 +131,9 @@ TEST_F(SamePathsTest, WhereTheyMarch) {
 }
 
 TEST_F(SamePathsTest, OnSobolPoints) {
-    for (Scene scene : {smoke_stage(Rgb(0.5, 3, 20)), air_stage(true)}) {
-        scene.sampler = Sampler::sobol;
+    for (const Sampler sampler : {Sampler::sobol, Sampler::zsobol}) {
+        Scene scene = sampler == Sampler::sobol ? smoke_stage(Rgb(0.5, 3, 20)) : air_stage(true);
+        scene.sampler = sampler;
         scene.camera.lens_radius = 0.1;
         scene.camera.focal_distance = 6;
         expect_same_paths(scene);

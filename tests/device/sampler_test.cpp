@@ -11,8 +11,9 @@ using namespace support;
 
 class SamplerTest : public DeviceTest {};
 
-Scene on_sobol_points(Scene scene) {
-    scene.sampler = Sampler::sobol;
+Scene on_points(Sampler sampler, Scene scene, std::uint32_t samples) {
+    scene.sampler = sampler;
+    scene.samples_per_pixel = static_cast<int>(samples);
     return scene;
 }
 
@@ -26,11 +27,16 @@ Scene box_of_tosses(double thickness) {
     return scene;
 }
 
-/// Furthest from a radiance that a pixel is.
-double worst_error(const Scene& scene, std::uint32_t samples, double radiance) {
+/// Furthest from a radiance that the mean over a square of pixels is; 16 is the picture.
+double worst_error(const Scene& scene, std::uint32_t samples, double radiance,
+                   std::size_t side = 1) {
+    const std::vector<Rgb> pixels = colors_of(render(scene, samples));
+    std::vector<double> squares(256 / (side * side));
+    for (std::size_t i = 0; i < 256; ++i)
+        squares[i / 16 / side * (16 / side) + i % 16 / side] += pixels[i].g / double(side * side);
     double worst = 0;
-    for (const Rgb& pixel : colors_of(render(scene, samples)))
-        worst = std::max(worst, std::abs(pixel.g - radiance));
+    for (const double mean : squares)
+        worst = std::max(worst, std::abs(mean - radiance));
     return worst;
 }
 
@@ -41,14 +47,30 @@ TEST_F(SamplerTest, EachPixelHasItsShareOfEachRandomNumber) {
         for (const std::uint32_t samples : {8u, 64u, 512u}) {
             const Scene scene = box_of_tosses(thickness);
             const double radiance = std::exp(-thickness), most = 1.001 / samples;
-            EXPECT_LT(worst_error(on_sobol_points(scene), samples, radiance), most);
+            for (const Sampler sampler : {Sampler::sobol, Sampler::zsobol})
+                EXPECT_LT(worst_error(on_points(sampler, scene, samples), samples, radiance), most);
             EXPECT_GT(worst_error(scene, samples, radiance), most) << "no teeth";
         }
 }
 
+/// In Z order, the same holds for squares of pixels: what is too much in one is missing next to it.
+TEST_F(SamplerTest, InZOrderErrorsCancelBetweenNeighbours) {
+    constexpr std::uint32_t samples = 4;
+    const Scene scene = box_of_tosses(1);
+    for (const std::size_t side : {2, 4, 16}) {
+        const double most = 1.001 / double(samples * side * side);
+        const auto error = [&](Sampler sampler) {
+            return worst_error(on_points(sampler, scene, samples), samples, std::exp(-1), side);
+        };
+        EXPECT_LT(error(Sampler::zsobol), most) << side;
+        EXPECT_GT(error(Sampler::sobol), most) << "no teeth: " << side;
+    }
+}
+
 TEST_F(SamplerTest, MeansAreTheSame) {
     for (const Scene& scene : {busy_scene(), plain_scene()}) {
-        const Estimate a = mean_of(on_sobol_points(scene), 512), b = mean_of(scene, 512);
+        const Estimate a = mean_of(on_points(Sampler::sobol, scene, 512), 512),
+                       b = mean_of(scene, 512);
         const Estimate difference{a.mean - b.mean, glm::sqrt(a.standard_error * a.standard_error +
                                                              b.standard_error * b.standard_error)};
         expect_mean(difference, 0, 0.05 * b.mean.g);
@@ -57,12 +79,13 @@ TEST_F(SamplerTest, MeansAreTheSame) {
 
 TEST_F(SamplerTest, NoBitDependsOnHowTheWorkIsCutUp) {
     for (const Scene& independent : {busy_scene(), plain_scene()}) {
-        const Scene scene = on_sobol_points(independent);
-        const auto sums = render_sums(scene, 0, 5);
-        EXPECT_NE(render_sums(independent, 0, 5), sums) << "no teeth";
-        EXPECT_EQ(render_sums(scene, 0, 5, {.slots = 100}), sums);
-        EXPECT_EQ(render_sums(scene, 0, 5, {.run_length = 7}), sums);
-        EXPECT_EQ(render_sums(scene, 0, 5, {.workgroup_size = 32}), sums);
+        for (const Sampler sampler : {Sampler::sobol, Sampler::zsobol}) {
+            const Scene scene = on_points(sampler, independent, 4); // of which there are more
+            const auto sums = render_sums(scene, 0, 5);
+            EXPECT_NE(render_sums(independent, 0, 5), sums) << "no teeth";
+            const Tuning other{.slots = 100, .run_length = 7, .workgroup_size = 32};
+            EXPECT_EQ(render_sums(scene, 0, 5, other), sums);
+        }
     }
 }
 

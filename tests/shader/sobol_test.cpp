@@ -43,6 +43,20 @@ bool is_net(Block block, std::uint32_t pixel, std::uint32_t first, int m) {
     return true;
 }
 
+/// The samples, 2^bits each, of a square of 4 x 4 pixels, as one sequence.
+uvec4 square_block(uvec2 seed, std::uint32_t square, std::uint32_t s, std::uint32_t event,
+                   std::uint32_t block) {
+    constexpr std::uint32_t bits = 3;
+    const std::uint32_t pixel = s >> bits, sample = s & 7u;
+    const std::uint32_t x = 4 * square + (pixel & 3u), y = 8 + pixel / 4;
+    return shared::zsobol_block(seed, shared::morton_code(x, y), sample, event, block, bits);
+}
+/// The same without the order of pixels.
+uvec4 separate_block(uvec2 seed, std::uint32_t square, std::uint32_t s, std::uint32_t event,
+                     std::uint32_t block) {
+    return shared::sobol_block(seed, 16 * square + (s >> 3), s & 7u, event, block);
+}
+
 /// Chi-squared over 64 x 64 cells of two words, in standard deviations from its mean, for so many
 /// pixels.
 double joint_excess(const std::function<std::pair<std::uint32_t, std::uint32_t>(std::uint32_t)>& at,
@@ -102,6 +116,19 @@ TEST_F(Sobol, EachPowerOfTwoIsANet) {
                         << "no teeth: not where a power of two begins";
                 }
             }
+}
+
+TEST_F(Sobol, InZOrderPixelsTogetherAreANet) {
+    for (std::uint32_t square = 0; square < 50; ++square) {
+        EXPECT_TRUE(is_net(square_block, square, 0, 7)) << square; // 16 pixels of 8 samples
+        EXPECT_TRUE(is_net(square_block, square, 8, 3)) << square; // each of them
+        EXPECT_FALSE(is_net(separate_block, square, 0, 7)) << "no teeth";
+    }
+    // A picture of any size and any count has no two samples in one place.
+    using shared::zsobol_block;
+    EXPECT_NE(zsobol_block({1, 0}, 5, 3, 1, 0, 2), zsobol_block({1, 0}, 5, 7, 1, 0, 2));
+    EXPECT_NE(zsobol_block({1, 0}, 5, 3, 1, 0, 31), zsobol_block({1, 0}, 7, 3, 1, 0, 31));
+    EXPECT_NE(zsobol_block({1, 0}, 5, 0, 1, 0, 0), zsobol_block({1, 0}, 5, 1, 1, 0, 0));
 }
 
 /// Of one sample, any two words are independent, whether of one block or of neighbours.
