@@ -15,6 +15,7 @@ function(tyndall_shaders target)
       DEPFILE ${header}.d
       DEPENDS ${path}
       COMMAND ${TYNDALL_GLSLANG} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders
+              -I${CMAKE_CURRENT_BINARY_DIR}
               --depfile ${header}.d --vn ${name}_spirv -o ${header} ${path}
       COMMENT "Compiling shader ${name}"
       VERBATIM)

@@ -68,20 +68,6 @@ float fetch_voxel(uint at) {
     return unpackHalf2x16(voxel_words[at >> 1])[at & 1u];
 }
 
-uvec4 load_path(uint group, uint slot) {
-    const uint texel = group * push.slot_count + slot;
-    if (in_storage(BINDING_PATHS)) return path_words[texel];
-    return imageLoad(path_texels, int(texel));
-}
-void store_path(uint group, uint slot, uvec4 value) {
-    path_words[group * push.slot_count + slot] = value;
-}
-/// One word of a texel: a CPU driver stores word by word and lane by lane, which costs more than
-/// all else about a path's state.
-void store_path_word(uint group, uint component, uint slot, uint value) {
-    path_words[group * push.slot_count + slot][component] = value;
-}
-
 vec4 load_batch(uint texel) {
     if (in_storage(BINDING_BATCHES)) return uintBitsToFloat(batch_words[texel]);
     return uintBitsToFloat(imageLoad(batch_texels, int(texel)));

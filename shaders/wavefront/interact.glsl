@@ -8,18 +8,6 @@
 #include "wavefront/region.glsl"
 #include "wavefront/volume.glsl"
 
-void enqueue(uint queue, uint slot) {
-    const uint at = atomicAdd(control.queue_size[queue], 1u);
-    queues[queue * push.slot_count + at] = slot;
-    if (at % workgroup_size == 0u) atomicAdd(control.queue_dispatch[queue].x, 1u);
-}
-
-/// The slot that this invocation works on; NONE if the queue has no more.
-uint dequeue(uint queue) {
-    const uint at = gl_GlobalInvocationID.x;
-    return at < control.queue_size[queue] ? queues[queue * push.slot_count + at] : NONE;
-}
-
 /// Medium on the side of a surface that a ray leaves to along `direction`.
 uint medium_beyond(ShapeRecord shape, SurfacePoint s, vec3 direction, uint medium) {
     if (has_media == 0u || (shape.flags & SHAPE_TRANSITION) == 0u) return medium;

@@ -6,6 +6,7 @@
 #include "wavefront/event_log.glsl"
 #include "wavefront/health.glsl"
 #include "wavefront/scene.glsl"
+#include "wavefront/slots.glsl"
 
 #define STATUS_NEW 0u      // has never had a ticket (state starts as zeros)
 #define STATUS_WAITING 1u  // its ticket is not yet due

@@ -99,9 +99,12 @@ void main() {
     p.status = goes_on                                         ? STATUS_TRACKING
                : end == END_ABSORBED || is_black(p.throughput) ? STATUS_ENDED
                                                                : STATUS_RAY;
-    if (goes_on) store_path_word(PATH_TRACK, 1u, slot, floatBitsToUint(tau));
-    store_path_word(goes_on ? PATH_TRACK : PATH_HIT, 0u, slot,
-                    goes_on || is_real ? floatBitsToUint(t) : hit.x);
+    if (goes_on) {
+        store_path_word(PATH_TRACK, 0u, slot, floatBitsToUint(t));
+        store_path_word(PATH_TRACK, 1u, slot, floatBitsToUint(tau));
+    } else if (is_real) {
+        store_path_word(PATH_HIT, 0u, slot, floatBitsToUint(t));
+    }
     if (p.status == STATUS_ENDED) log_path(EVENT_ABSORBED, p);
     report_majorant_ratio(worst_ratio);
     store_progress(slot, p);

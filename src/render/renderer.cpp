@@ -48,11 +48,11 @@ Renderer::Renderer(const gpu::Context& context, const Scene& scene, const Tuning
     : Renderer(context, scene, compute_effects(scene), tuning) {}
 
 Renderer::Renderer(const gpu::Context& context, const Scene& scene, Effects effects,
-                   const Tuning& tuning)
+                   const Tuning& tuning, std::span<const StageKind> kinds)
     : context_(&context), effects_(std::move(effects)),
       tables_(timed(build_seconds_, [&] { return make_scene_tables(scene, effects_); })),
-      wavefront_(
-          timed(compile_seconds_, [&] { return Wavefront(context, tables_, effects_, tuning); })) {
+      wavefront_(timed(compile_seconds_,
+                       [&] { return Wavefront(context, tables_, effects_, tuning, kinds); })) {
     tables_.texels = {}; // on the device now
 }
 

@@ -39,9 +39,9 @@ using shared::kHealthNames;
 class Renderer {
   public:
     Renderer(const gpu::Context& context, const Scene& scene, const Tuning& tuning = {});
-    /// With the effects of the scene, or with more.
-    Renderer(const gpu::Context& context, const Scene& scene, Effects effects,
-             const Tuning& tuning);
+    /// With the effects of the scene, or with more; with all stages, or others that make paths.
+    Renderer(const gpu::Context& context, const Scene& scene, Effects effects, const Tuning& tuning,
+             std::span<const StageKind> kinds = stage_kinds());
 
     /// Seed of the renders that follow, in place of the scene's.
     void set_seed(std::uint64_t seed) { wavefront_.set_seed(seed); }

@@ -41,8 +41,8 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
 } // namespace
 
 Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
-                     const Tuning& tuning)
-    : context_(&context), features_(tables.features(effects.features)),
+                     const Tuning& tuning, std::span<const StageKind> kinds)
+    : context_(&context), kinds_(kinds), features_(tables.features(effects.features)),
       tuning_(choose_tuning(context, effects.features, tuning)), push_(tables.push),
       table_bytes_(tables.bytes) {
     push_.window = batch_window(push_.pixel_count);
@@ -98,7 +98,7 @@ void Wavefront::retune(const Tuning& tuning) {
 
 void Wavefront::build_stages() {
     stages_.clear();
-    for (const StageKind& kind : stage_kinds()) {
+    for (const StageKind& kind : kinds_) {
         if (!kind.is_called_for(features_)) continue;
         stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
                                              kind.features(features_))});

@@ -31,8 +31,9 @@ struct EventLog {
 class Wavefront {
   public:
     /// Uploads the tables, allocates state and film, builds the stages that the effects call for.
+    /// @param kinds  Must outlive the wavefront.
     Wavefront(const gpu::Context& context, const SceneTables& tables, const Effects& effects,
-              const Tuning& tuning);
+              const Tuning& tuning, std::span<const StageKind> kinds = stage_kinds());
 
     /// Cuts the work up in another way from the next epoch on.
     void retune(const Tuning& tuning);
@@ -86,6 +87,7 @@ class Wavefront {
                             std::uint32_t least) const;
 
     const gpu::Context* context_;
+    std::span<const StageKind> kinds_;
     shared::Features features_;
     Tuning tuning_;
     shared::PushConstants push_;

@@ -1,8 +1,7 @@
-/// The wavefront against the fused kernel, and against pbrt-v4's CPU volpath at equal error: CPU
-/// time times variance on the same picture. Its figures were taken when the yardstick printed
+/// The wavefront against pbrt-v4's CPU volpath at equal error: CPU time times variance on the same
+/// picture. Its figures were taken when the yardstick printed
 /// kYardstickThen.
 #include "bench/bench.h"
-#include "bench/fused_cube.h"
 #include "bench/yardstick.h"
 
 #include <algorithm>
@@ -35,28 +34,6 @@ double variance_per_sample(Renderer& renderer) {
         sum += static_cast<double>(film.pixels[i + 4]);
     return sum / (double(film.width) * film.height) * renderer.samples();
 }
-
-/// The wavefront against the fused kernel, in turns.
-void fused_ratio(benchmark::State& state) {
-    constexpr int size = 256;
-    constexpr std::uint32_t samples = 512;
-    Renderer renderer(context(), read_bench_scene("device/pbrt/homogeneous-cube", size));
-    FusedCube fused(context(), size);
-    renderer.render(0, 8);
-    fused.render(1, 0);
-    const double paths = double(size) * size * samples;
-    double best_wavefront = std::numeric_limits<double>::max(), best_fused = best_wavefront;
-    std::uint32_t seed = 0;
-    for (auto _ : state) {
-        best_wavefront = std::min(best_wavefront, cpu_of([&] { renderer.render(0, samples); }));
-        best_fused = std::min(best_fused, cpu_of([&] { fused.render(samples, ++seed); }));
-    }
-    state.counters["wavefront_cpu_seconds_per_Mpath"] = best_wavefront / paths * 1e6;
-    state.counters["fused_cpu_seconds_per_Mpath"] = best_fused / paths * 1e6;
-    state.counters["ratio"] = best_fused / best_wavefront;
-    state.counters["fused_mean"] = fused.read_mean();
-}
-BENCHMARK(fused_ratio)->Iterations(6)->Unit(benchmark::kMillisecond);
 
 /// Time to equal error against pbrt-v4.
 void equal_error(benchmark::State& state) {

@@ -1,0 +1,75 @@
+/// What the wavefront costs, beside kernels that keep paths in registers from end to end.
+#include "bench/bench.h"
+#include "bench/fused_cube.h"
+#include "spirv/fused_paths.h"
+
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <functional>
+#include <limits>
+
+namespace tyndall::bench {
+namespace {
+
+constexpr int kSize = 256;
+
+/// CPU seconds of both in turns, the least of each, and their ratio.
+void run_in_turns(benchmark::State& state, std::uint32_t samples,
+                  const std::function<void()>& wavefront, const std::function<void()>& fused) {
+    double best_wavefront = std::numeric_limits<double>::max(), best_fused = best_wavefront;
+    for (auto _ : state) {
+        best_wavefront = std::min(best_wavefront, cpu_of(wavefront));
+        best_fused = std::min(best_fused, cpu_of(fused));
+    }
+    const double paths = double(kSize) * kSize * samples;
+    state.counters["wavefront_cpu_seconds_per_Mpath"] = best_wavefront / paths * 1e6;
+    state.counters["fused_cpu_seconds_per_Mpath"] = best_fused / paths * 1e6;
+    state.counters["ratio"] = best_fused / best_wavefront;
+}
+
+/// Against a kernel written for homogeneous-cube and nothing else.
+void fused_cube(benchmark::State& state) {
+    constexpr std::uint32_t samples = 512;
+    Renderer renderer(context(), read_bench_scene("device/pbrt/homogeneous-cube", kSize));
+    FusedCube fused(context(), kSize);
+    renderer.render(0, 8);
+    fused.render(1, 0);
+    std::uint32_t seed = 0;
+    run_in_turns(
+        state, samples, [&] { renderer.render(0, samples); },
+        [&] { fused.render(samples, ++seed); });
+    state.counters["fused_mean"] = fused.read_mean();
+}
+BENCHMARK(fused_cube)->Name("fused_ratio/homogeneous-cube")->Iterations(6);
+
+/// The stages of the wavefront in one kernel (fused_paths.comp), and what completes a round.
+std::vector<StageKind> fused_stages() {
+    std::vector<StageKind> stages{
+        {"fused_paths", fused_paths_spirv, StageInput::slots, 0, [](const auto&) { return true; }}};
+    for (const StageKind& kind : stage_kinds())
+        if (kind.input == StageInput::once || kind.input == StageInput::folds)
+            stages.push_back(kind);
+    return stages;
+}
+
+/// Against all stages in one kernel.
+void fused_paths(benchmark::State& state, const std::string& name) {
+    constexpr std::uint32_t samples = 64;
+    const Scene scene = read_bench_scene("device/pbrt/" + name, kSize);
+    const std::vector<StageKind> stages = fused_stages();
+    Renderer renderer(context(), scene);
+    Renderer fused(context(), scene, compute_effects(scene), {.slots = 4096}, stages); // its best
+    renderer.render(0, 1);
+    fused.render(0, 1);
+    run_in_turns(
+        state, samples, [&] { renderer.render(0, samples); }, [&] { fused.render(0, samples); });
+    if (fused.read_film().pixels != renderer.read_film().pixels)
+        state.SkipWithError("the images differ");
+}
+BENCHMARK_CAPTURE(fused_paths, smoke_grid, "smoke-grid")
+    ->Name("fused_ratio/smoke-grid")
+    ->Iterations(3);
+BENCHMARK_CAPTURE(fused_paths, fog_room, "fog-room")->Name("fused_ratio/fog-room")->Iterations(3);
+
+} // namespace
+} // namespace tyndall::bench
