@@ -8,19 +8,14 @@
 /// direction that is 0 neither enters nor leaves: no 0 * inf.
 bool clip_to_box(vec3 origin, vec3 direction, vec3 lower, vec3 upper, float t_max, out float t0,
                  out float t1) {
-    t0 = 0.0;
-    t1 = t_max;
-    bool meets = true;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float a = (lower[axis] - origin[axis]) / direction[axis];
-        const float b = (upper[axis] - origin[axis]) / direction[axis];
-        const bool is_parallel = direction[axis] == 0.0;
-        const bool is_inside = origin[axis] >= lower[axis] && origin[axis] <= upper[axis];
-        t0 = is_parallel ? t0 : max(t0, min(a, b));
-        t1 = is_parallel ? t1 : min(t1, max(a, b));
-        meets = meets && (!is_parallel || is_inside);
-    }
-    return meets && t0 < t1;
+    const bvec3 is_parallel = equal(direction, vec3(0));
+    const vec3 a = (lower - origin) / direction, b = (upper - origin) / direction;
+    const vec3 entry = mix(min(a, b), vec3(0), is_parallel);
+    const vec3 exit = mix(max(a, b), vec3(INFINITY), is_parallel);
+    t0 = max(0.0, max(entry.x, max(entry.y, entry.z)));
+    t1 = min(t_max, min(exit.x, min(exit.y, exit.z)));
+    const vec3 outside = max(lower - origin, origin - upper);
+    return t0 < t1 && !any(greaterThan(mix(vec3(0), outside, is_parallel), vec3(0)));
 }
 
 /// A walk over cubic cells of edge `size` that start at `lower`, along a line. Boundaries are
@@ -28,41 +23,53 @@ bool clip_to_box(vec3 origin, vec3 direction, vec3 lower, vec3 upper, float t_ma
 struct CellWalk {
     vec3 origin; ///< In cells: (index - lower) / size
     vec3 direction;
-    ivec3 cell;
+    vec3 inverse; ///< Of the direction.
     ivec3 step;
+    ivec3 cell;
 };
 
-/// The walk at distance t; the point is in the cells up to rounding.
-CellWalk begin_cells(vec3 origin, vec3 direction, vec3 lower, float size, ivec3 count, float t) {
+/// The walk before it has a cell.
+CellWalk make_cells(vec3 origin, vec3 direction, vec3 lower, float size) {
     CellWalk walk;
     walk.origin = (origin - lower) / size;
     walk.direction = direction / size;
-    walk.cell = clamp(ivec3(floor(walk.origin + t * walk.direction)), ivec3(0), count - 1);
+    walk.inverse = size / direction;
     walk.step = ivec3(sign(direction));
     return walk;
 }
 
-/// Distance at which the line leaves the present cell, and the axis through whose face it does.
-float cell_exit(CellWalk walk, out int axis) {
-    const vec3 face = vec3(walk.cell + max(walk.step, ivec3(0)));
-    const vec3 t =
-        mix((face - walk.origin) / walk.direction, vec3(INFINITY), equal(walk.step, ivec3(0)));
-    axis = t.x <= t.y && t.x <= t.z ? 0 : t.y <= t.z ? 1 : 2;
-    return t[axis];
+/// The cell at distance t; the point is in the cells up to rounding.
+ivec3 cell_at(CellWalk walk, ivec3 count, float t) {
+    return clamp(ivec3(floor(walk.origin + t * walk.direction)), ivec3(0), count - 1);
 }
 
-/// The voxel that a stochastic trilinear tap at a point of index space reads, chosen by one uniform
-/// number whose rest serves the next axis.
+/// Distance at which the line leaves the present cell, and the step through that face.
+float cell_exit(CellWalk walk, out ivec3 step) {
+    const vec3 face = vec3(walk.cell + max(walk.step, ivec3(0)));
+    const vec3 t =
+        mix((face - walk.origin) * walk.inverse, vec3(INFINITY), equal(walk.step, ivec3(0)));
+    const bool in_x = t.x <= t.y && t.x <= t.z, in_y = !in_x && t.y <= t.z;
+    step = walk.step * ivec3(in_x, in_y, !in_x && !in_y);
+    return min(t.x, min(t.y, t.z));
+}
+
+/// Whether a tap reads the upper voxel of two, by a uniform number whose rest serves the next axis.
+bool choose_upper(float f, inout float u) {
+    const bool upper = u < f;
+    u = upper ? u / f : (u - f) / (1.0 - f);
+    return upper;
+}
+
+/// The voxel that a stochastic trilinear tap at a point of index space reads, by one uniform
+/// number.
 ivec3 choose_corner(vec3 index, float u) {
     const vec3 base = floor(index);
     const vec3 f = index - base;
-    ivec3 corner = ivec3(base);
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool upper = u < f[axis];
-        u = upper ? u / f[axis] : (u - f[axis]) / (1.0 - f[axis]);
-        corner[axis] += upper ? 1 : 0;
-    }
-    return corner;
+    bvec3 upper;
+    upper.x = choose_upper(f.x, u);
+    upper.y = choose_upper(f.y, u);
+    upper.z = choose_upper(f.z, u);
+    return ivec3(base) + ivec3(upper);
 }
 
 /// Integral of exp(-h / H) over [0, t] along a line that starts at height h0 and rises by m per

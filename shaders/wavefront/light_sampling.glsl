@@ -213,7 +213,8 @@ void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSa
     const Medium medium = load_medium(v.medium);
     const GridRecord grid = load_grid(medium.density_record);
     if (any(lessThan(at, grid.lower)) || any(greaterThan(at, grid.upper))) return;
-    const Tap tap = tap_grid(medium, grid, voxel);
+    const Tap tap =
+        tap_grid(medium, grid, load_bricks(grid.density == NONE ? 0u : grid.density), voxel);
     const vec3 emission = tap.sigma_a * tap.emission;
     if (is_black(emission)) return; // rounded away
     const vec3 to = transform_point(v.render_from_index, at) - from;

@@ -79,7 +79,7 @@ vec3 extinction_at(Medium medium, Field f, vec3 origin, vec3 direction, float t)
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel;
         const float weight = corner_weight(f.origin + t * f.direction, i, voxel);
-        const Tap tap = tap_grid(medium, f.grid, voxel);
+        const Tap tap = tap_grid(medium, f.grid, f.bricks, voxel);
         sum += weight * (tap.sigma_a + tap.sigma_s);
     }
     return sum;

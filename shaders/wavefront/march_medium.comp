@@ -31,7 +31,7 @@ Matter matter_at(Path p, Medium medium, Field f, float t, float before) {
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel;
         const float weight = corner_weight(f.origin + t * f.direction, i, voxel);
-        const Tap tap = tap_grid(medium, f.grid, voxel);
+        const Tap tap = tap_grid(medium, f.grid, f.bricks, voxel);
         const vec3 source = tap.sigma_a * tap.emission;
         sum.sigma_a += weight * tap.sigma_a;
         sum.sigma_s += weight * tap.sigma_s;

@@ -48,17 +48,29 @@ ExponentialRecord load_exponential(uint texel) {
     return e;
 }
 
-/// Value of a voxel of the grid whose BrickTableRecord is at `table`; 0 outside.
-float voxel_value(uint table, ivec3 voxel) {
-    const uvec4 a = fetch_scene(table);
-    const ivec3 brick = (voxel >> 3) - ivec3(a.xyz);
-    const ivec3 count = ivec3(fetch_scene(table + 1u).xyz);
-    const bool is_inside = all(greaterThanEqual(brick, ivec3(0))) && all(lessThan(brick, count));
+/// Where the bricks of a grid are.
+BrickTableRecord load_bricks(uint texel) {
+    BrickTableRecord bricks;
+    const uvec4 t = fetch_scene(texel);
+    bricks.first_brick = ivec3(t.xyz);
+    bricks.table = t.w;
+    bricks.brick_count = ivec3(fetch_scene(texel + 1u).xyz);
+    return bricks;
+}
+
+/// Value of a voxel; 0 outside.
+float voxel_value(BrickTableRecord bricks, ivec3 voxel) {
+    const ivec3 brick = (voxel >> 3) - bricks.first_brick, count = bricks.brick_count;
+    const bool is_inside = all(lessThan(uvec3(brick), uvec3(count)));
     const uint index = uint(brick.x + count.x * (brick.y + count.y * brick.z));
-    const uint number = table_word(a.w, is_inside ? index : 0u);
+    const uint number = table_word(bricks.table, is_inside ? index : 0u);
     const bool is_stored = is_inside && number != NONE;
     const uvec3 local = uvec3(voxel & 7);
     return is_stored ? fetch_voxel(number * 512u + local.x + 8u * (local.y + 8u * local.z)) : 0.0;
+}
+/// Likewise of the grid whose BrickTableRecord is at `table`.
+float voxel_value(uint table, ivec3 voxel) {
+    return voxel_value(load_bricks(table), voxel);
 }
 
 /// Radiance of a black body, Planck's law scaled to a maximum of 1 over wavelengths.
@@ -77,6 +89,8 @@ vec3 blackbody(float kelvin) {
 struct Field {
     bool is_grid;
     GridRecord grid;
+    BrickTableRecord bricks; ///< Of grid.density, if there is one.
+    CellWalk cells;          ///< Those of the majorants.
     ExponentialRecord sphere;
     vec3 origin; ///< In index space, or the space of the sphere; distances stay those of the world.
     vec3 direction;
@@ -103,6 +117,10 @@ Field begin_field(Medium medium, vec3 origin, vec3 direction, float t_surface, o
         f.direction = transform_vector(f.grid.index_from_render, direction);
         if (has_rgb_grids != 0u && f.grid.density == NONE)
             f.sigma_max = 1.0; // bounds are of sigma_t itself
+        else
+            f.bricks = load_bricks(f.grid.density);
+        f.cells = make_cells(f.origin, f.direction, vec3(f.grid.majorant_lower),
+                             float(f.grid.majorant_size));
         if (!clip_to_box(f.origin, f.direction, f.grid.lower, f.grid.upper, t_surface, t,
                          f.t_end)) {
             t = 0.0;
@@ -123,9 +141,9 @@ const uint STEPS_MAX = 4096u;        ///< Before the last call of an invocation.
 /// the line; or short of it, after FLIGHT_STEPS_MAX cells, and tau is what is left of the flight.
 /// (On testing first see phases.glsl; it costs other drivers 4 %.)
 bool next_collision_in_grid(Field f, inout float tau, inout float t, out float bound) {
-    CellWalk walk = begin_cells(f.origin, f.direction, vec3(f.grid.majorant_lower),
-                                float(f.grid.majorant_size), f.grid.majorant_count, t);
+    CellWalk walk = f.cells;
     const ivec3 n = f.grid.majorant_count;
+    walk.cell = cell_at(walk, n, t);
     bool collides = false, has_left = false;
     uint steps = 0u;
     bound = 0.0;
@@ -134,14 +152,14 @@ bool next_collision_in_grid(Field f, inout float tau, inout float t, out float b
         const ivec3 c = walk.cell;
         bound = f.sigma_max *
                 uintBitsToFloat(table_word(f.grid.majorants, uint(c.x + n.x * (c.y + n.y * c.z))));
-        int axis;
-        const float exit = max(t, min(cell_exit(walk, axis), f.t_end));
+        ivec3 step;
+        const float exit = max(t, min(cell_exit(walk, step), f.t_end));
         const float depth = bound * (exit - t);
         collides = depth > tau;
         t = collides ? min(t + tau / bound, exit) : exit;
         tau -= depth;
-        walk.cell[axis] += walk.step[axis];
-        has_left = t >= f.t_end || walk.cell[axis] < 0 || walk.cell[axis] >= n[axis];
+        walk.cell += step;
+        has_left = t >= f.t_end || any(greaterThanEqual(uvec3(walk.cell), uvec3(n)));
         ++steps;
     } while (loops_test_first != 0u || (!collides && !has_left && steps < FLIGHT_STEPS_MAX));
     steps_walked += steps;
@@ -199,10 +217,10 @@ struct Tap {
     vec3 emission; ///< Le
 };
 
-Tap tap_grid(Medium medium, GridRecord g, ivec3 corner) {
+Tap tap_grid(Medium medium, GridRecord g, BrickTableRecord bricks, ivec3 corner) {
     Tap tap = Tap(medium.sigma_a, medium.sigma_s, medium.emission);
     if (has_rgb_grids == 0u || g.density != NONE) {
-        const float density = voxel_value(g.density, corner);
+        const float density = voxel_value(bricks, corner);
         tap.sigma_a *= density;
         tap.sigma_s *= density;
     } else {
@@ -228,7 +246,7 @@ Tap tap_field(Medium medium, Field f, float t, float u) {
         const float density = exp(-height / f.sphere.scale_height);
         return Tap(medium.sigma_a * density, medium.sigma_s * density, medium.emission);
     }
-    return tap_grid(medium, f.grid, choose_corner(point, u));
+    return tap_grid(medium, f.grid, f.bricks, choose_corner(point, u));
 }
 
 /// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks
