@@ -40,6 +40,12 @@
 
 TYNDALL_SHARED_BEGIN
 
+// Of Russian roulette: a path survives with this times its throughput. The environment is found by
+// paths that leave, and where that is all, they have no noise but what roulette adds. Other light
+// is found bit by bit on the way, and little of it so late.
+TYNDALL_CONSTANT float ROULETTE_SCALE_IN_ENVIRONMENT = 8.0f;
+TYNDALL_CONSTANT float ROULETTE_SCALE = 2.0f;
+
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;
 TYNDALL_CONSTANT uint BLOCK_SHADOW = 2u;

@@ -252,10 +252,11 @@ struct PushConstants {
     uint alias_table;
     uint light_count;
     uint region;
-    uint triangle_root; ///< Child words of the roots of three hierarchies, or NONE: triangles,
-    uint other_root;    ///< patches, quadrics and boxes,
-    uint instance_root; ///< instances.
-    uint blackbody;     ///< Table of emission over log temperature (volume_records.h), or NONE.
+    uint triangle_root;   ///< Child words of the roots of three hierarchies, or NONE: triangles,
+    uint other_root;      ///< patches, quadrics and boxes,
+    uint instance_root;   ///< instances.
+    uint blackbody;       ///< Table of emission over log temperature (volume_records.h), or NONE.
+    float roulette_scale; ///< A path survives roulette with this times its throughput.
 };
 
 TYNDALL_CONSTANT int BATCH_WINDOW_MAX = 64;

@@ -82,7 +82,7 @@ void roulette(inout Path p, float reach, uint word) {
     const float w = max(p.throughput.x, max(p.throughput.y, p.throughput.z));
     // Without surfaces and voxels there is only spectral MIS, which never exceeds 3.
     if (geometry == GEOMETRY_BVH) note_mishap(HEALTH_WEIGHT, w * reach > WEIGHT_MAX);
-    const float chance = max(8.0 * w * reach, 0.25);
+    const float chance = max(roulette_scale * w * reach, 0.25);
     if (chance >= 1.0) return;
     if (unit_float(word) >= chance || w <= 0.0) {
         log_path(w <= 0.0 ? EVENT_ABSORBED : EVENT_ROULETTE, p);

@@ -160,7 +160,10 @@ void PathTracer::Walk::log_light(const Start& shadow, const Rgb& added) {
 
 bool PathTracer::Walk::survive(double reach) {
     const double weight = largest(throughput_.beta);
-    const double chance = std::max(8 * weight * reach, 0.25);
+    const double scale = tracer_.lights_.background() == Rgb(0)
+                             ? shared::ROULETTE_SCALE
+                             : shared::ROULETTE_SCALE_IN_ENVIRONMENT;
+    const double chance = std::max(scale * weight * reach, 0.25);
     report_.note(shared::HEALTH_WEIGHT, weight * reach > shared::WEIGHT_MAX);
     if (weight == 0) return end(Kind::absorbed);
     if (chance >= 1) return true;

@@ -8,6 +8,7 @@
 #include "render/volume_tables.h"
 #include "scene/emitting_voxels.h"
 #include "scene/filter.h"
+#include "shared/random.h"
 
 #include <algorithm>
 #include <bit>
@@ -321,6 +322,8 @@ SceneTables Packer::pack() {
     tables_.push.y0 = static_cast<std::uint32_t>(film.bounds.y0);
     tables_.push.full_width = static_cast<std::uint32_t>(film.width);
     tables_.push.max_depth = static_cast<std::uint32_t>(scene_.integrator.max_depth);
+    tables_.push.roulette_scale =
+        effects_.environment == Rgb(0) ? ROULETTE_SCALE : ROULETTE_SCALE_IN_ENVIRONMENT;
     return std::move(tables_);
 }
 

@@ -135,8 +135,9 @@ TEST(DirectLight, ShadingNormalsTiltTheCosine) {
     expect_exactly(scene, Rgb(0.8));
 }
 
-/// Inside of an emitting, diffuse sphere: Le (1 + rho + rho^2 + ...). At rho = 0.2 the roulette
-/// takes part from the second reflection on: without its factor 2, 0.005 would be missing.
+/// Inside of an emitting, diffuse sphere: Le (1 + rho + rho^2 + ...). The roulette takes
+/// part in all but the first reflection at rho = 0.7: without its factors, more than 0.005 would be
+/// missing.
 TEST(IntegratingSphere, SumsTheGeometricSeries) {
     for (const double rho : {0.2, 0.7}) {
         Scene scene = empty_scene(8);
@@ -146,7 +147,7 @@ TEST(IntegratingSphere, SumsTheGeometricSeries) {
             scene, support::full_sphere(3),
             {.material = material, .area_light = add_area_light(scene, Rgb(1)), .reverse = true},
             translation({0.5, 1, -0.3}));
-        const Estimate estimate = image_mean(scene, 32, 300);
+        const Estimate estimate = image_mean(scene, 32, 1200);
         EXPECT_LT(estimate.z(1 / (1 - rho)), pass) << estimate.mean.x;
         EXPECT_GT(estimate.z(1 / (1 - rho) - 0.005), reject);
     }

@@ -154,7 +154,7 @@ TEST_F(Layout, EveryPushConstantArrives) {
                   {p.media, p.shapes, p.primitives, p.nodes},
                   {p.vertex_normals, p.quadrics, p.instances, p.lights},
                   {p.light_count, p.region, p.triangle_root, p.other_root},
-                  {p.instance_root, p.alias_table, 0, 0}});
+                  {p.instance_root, p.alias_table, bits(p.roulette_scale), 0}});
 }
 
 /// The control block: the device writes it, the host and indirect dispatches read it.

@@ -87,7 +87,7 @@ void put_push() {
     put(uvec4(p.media, p.shapes, p.primitives, p.nodes));
     put(uvec4(p.vertex_normals, p.quadrics, p.instances, p.lights));
     put(uvec4(p.light_count, p.region, p.triangle_root, p.other_root));
-    put(uvec4(p.instance_root, p.alias_table, 0u, 0u));
+    put(uvec4(p.instance_root, p.alias_table, floatBitsToUint(p.roulette_scale), 0u));
 }
 
 uint count = 1u;
