@@ -272,7 +272,8 @@ TYNDALL_CONSTANT uint QUEUE_DIELECTRIC = 6u; // stand at a smooth dielectric, or
 TYNDALL_CONSTANT uint QUEUE_ROUGH_DIELECTRIC = 7u;
 TYNDALL_CONSTANT uint QUEUE_CONDUCTOR = 8u; // stand at smooth metal
 TYNDALL_CONSTANT uint QUEUE_ROUGH_CONDUCTOR = 9u;
-TYNDALL_CONSTANT uint QUEUE_COUNT = 10u;
+TYNDALL_CONSTANT uint QUEUE_EMITTER = 10u; // have a surface that emits at the end of their segment
+TYNDALL_CONSTANT uint QUEUE_COUNT = 11u;
 
 /// Arguments of vkCmdDispatchIndirect.
 struct DispatchSize {
@@ -312,7 +313,8 @@ TYNDALL_CONSTANT uint PATH_RADIANCE =
     3u; // radiance rgb | density of the last direction per steradian
 TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of batch, weight
 TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the batch: weight * radiance, weight
-TYNDALL_CONSTANT uint PATH_TICKET = 6u; // ticket, pixel, slot of the batch in the window | unused
+// Ticket, pixel, slot of the batch in the window | distance to the surface (EMITTER queue)
+TYNDALL_CONSTANT uint PATH_TICKET = 6u;
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
 // Distance to the end of the segment, primitive and instance there | distance before the segment

@@ -19,20 +19,6 @@ vec3 emitted(Path p, SurfacePoint s, ShapeRecord shape, float distance) {
     return mis * load_light(s.light).radiance;
 }
 
-/// Emission of the surface that the segment leads to, times the chance of getting there: a path
-/// that collides on the way has seen it as well. Where transmittance has no closed form, the paths
-/// that get there count instead (arrive).
-vec3 expected_emission(Path p, Hit hit, float distance_before) {
-    const SurfacePoint s = surface_point(p.origin, p.direction, hit);
-    vec3 seen = emitted(p, s, load_shape(s.shape), distance_before + hit.t);
-    if (has_media != 0u && p.medium != VACUUM) {
-        const Medium medium = load_medium(p.medium);
-        if (is_tracked(medium)) return vec3(0);
-        seen *= transmittance(medium, column_length(medium, p.origin, p.direction, hit.t));
-    }
-    return p.throughput * seen;
-}
-
 /// Loads a path, takes it to the surface, and adds what the surface emits.
 void arrive(uint slot, out Path p, out SurfacePoint s, out ShapeRecord shape) {
     load_ray(slot, p);

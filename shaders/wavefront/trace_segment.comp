@@ -1,12 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/contact.glsl"
-#include "wavefront/surface.glsl"
 
 // Finds where the segment of each path ends: at the nearest surface, or before it by a collision in
 // the medium (free flight).
 //
-//   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue
+//   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue, and EMITTER queue
+
+/// Whether light sampling has it for a light.
+bool is_emitter(uint primitive) {
+    const uint texel = push.primitives + primitive * PRIMITIVE_TEXELS;
+    return primitive != NONE && fetch_scene(texel + 1u).w != NONE;
+}
 
 void main() {
     const uint slot = gl_GlobalInvocationID.x;
@@ -36,12 +41,9 @@ void main() {
                 }
             }
         }
-        const float before = distance_travelled(slot, 0.0);
-        if (has_emitters != 0u && surface.primitive != NONE) {
-            load_throughput(slot, p);
-            load_radiance(slot, p);
-            contribute(p, expected_emission(p, surface, before));
-            store_radiance(slot, p);
+        if (has_emitters != 0u && is_emitter(surface.primitive)) {
+            store_path_word(PATH_TICKET, 3u, slot, floatBitsToUint(surface.t));
+            enqueue(QUEUE_EMITTER, slot);
         }
         store_path_word(PATH_HIT, 0u, slot, floatBitsToUint(hit.t));
         store_path_word(PATH_HIT, 1u, slot, hit.primitive);

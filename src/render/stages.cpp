@@ -7,6 +7,7 @@
 #include "spirv/schedule.h"
 #include "spirv/shade_conductor.h"
 #include "spirv/shade_dielectric.h"
+#include "spirv/shade_emitter.h"
 #include "spirv/shade_surface.h"
 #include "spirv/shade_volume.h"
 #include "spirv/trace_segment.h"
@@ -44,6 +45,9 @@ bool collides_in_media(const Features& f) {
 bool casts_shadows(const Features& f) {
     return has_hierarchy(f) && (f.lights || (f.march && f.has_scattering && f.has_environment));
 }
+bool sees_emitters(const Features& f) {
+    return has_hierarchy(f) && f.has_emitters;
+}
 template<std::uint32_t queue>
 bool has_surface(const Features& f) {
     return has_hierarchy(f) && f.surface_queues >> queue & 1u;
@@ -52,10 +56,11 @@ bool has_surface(const Features& f) {
 constexpr StageInput slots = StageInput::slots, queue = StageInput::queue;
 
 /// This list is the renderer.
-const std::array<StageKind, 15> kStages{{
+const std::array<StageKind, 16> kStages{{
     {"walk_region", walk_region_spirv, slots, 0, has_no_hierarchy},
 
     {"trace_segment", trace_segment_spirv, slots, 0, has_hierarchy},
+    {"shade_emitter", shade_emitter_spirv, queue, QUEUE_EMITTER, sees_emitters},
     {"track_medium", track_medium_spirv, queue, QUEUE_TRACK, tracks_media},
     {"march_medium", march_medium_spirv, queue, QUEUE_TRACK, marches_media},
     {"shade_volume", shade_volume_spirv, queue, QUEUE_VOLUME, collides_in_media},

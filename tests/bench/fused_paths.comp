@@ -3,6 +3,7 @@
 #include "fused_slots.glsl"
 #include "fused_stages/cross_interface.glsl"
 #include "fused_stages/next_sample.glsl"
+#include "fused_stages/shade_emitter.glsl"
 #include "fused_stages/shade_surface.glsl"
 #include "fused_stages/shade_volume.glsl"
 #include "fused_stages/trace_segment.glsl"
@@ -22,6 +23,7 @@ void main() {
     for (uint turn = 0u; turn < push.run_length; ++turn) {
         steps_walked = 0u;
         trace_segment();
+        if (has_emitters != 0u) shade_emitter();
         if ((densities & DENSITY_BITS_TRACKED) != 0u) track_medium();
         if (has_scattering != 0u) shade_volume();
         shade_surface();

@@ -72,6 +72,7 @@ TEST_F(EffectsTest, AUniformSkyNeedsNoShadowRays) {
                                       [](const Shape& s) { return s.area_light >= 0; }),
                        scene.shapes.end());
     EXPECT_FALSE(has_stage(scene, "trace_shadow"));
+    EXPECT_FALSE(has_stage(scene, "shade_emitter"));
     expect_agreement(scene, 16);
 }
 
@@ -117,10 +118,10 @@ TEST_F(EffectsTest, OnlyBoundariesThatOccurHaveStages) {
                                            "shade_conductor", "shade_rough_conductor"};
     EXPECT_EQ(stages_of(plain_scene()),
               (std::set<std::string>{"walk_region", "schedule", "update_film"}));
-    EXPECT_EQ(
-        stages_of(busy_scene()),
-        (std::set<std::string>{"trace_segment", "shade_volume", "shade_surface", "cross_interface",
-                               "trace_shadow", "next_sample", "schedule", "update_film"}));
+    EXPECT_EQ(stages_of(busy_scene()),
+              (std::set<std::string>{"trace_segment", "shade_emitter", "shade_volume",
+                                     "shade_surface", "cross_interface", "trace_shadow",
+                                     "next_sample", "schedule", "update_film"}));
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
         Scene scene = plain_scene();
         const double alpha = kind % 2 ? 0.2 : 0;
