@@ -38,17 +38,6 @@ Scene lamp_in_fog() {
     return scene;
 }
 
-/// An absorbing box of this optical thickness before a sky of radiance 1: exp(-thickness), by
-/// paths that are absorbed or not.
-Scene box_of_tosses(double thickness) {
-    Scene scene = empty_scene(16, 0.1);
-    scene.integrator.absorption = Integrator::Absorption::analog;
-    add_shape(scene, box_mesh({-1, -1, 1}, {1, 1, 2}),
-              {.inside = add_medium(scene, Rgb(thickness), Rgb(0))});
-    add_infinite(scene);
-    return scene;
-}
-
 /// A scene with its image as it should be.
 class Subject {
   public:

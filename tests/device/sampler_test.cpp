@@ -17,16 +17,6 @@ Scene on_points(Sampler sampler, Scene scene, std::uint32_t samples) {
     return scene;
 }
 
-/// A box that absorbs paths or lets them pass, by one random number each, before a sky of 1.
-Scene box_of_tosses(double thickness) {
-    Scene scene = empty_scene(16, 0.1);
-    scene.integrator.absorption = Integrator::Absorption::analog;
-    add_shape(scene, box_mesh({-1, -1, 1}, {1, 1, 2}),
-              {.inside = add_medium(scene, Rgb(thickness), Rgb(0))});
-    add_infinite(scene);
-    return scene;
-}
-
 /// Furthest from a radiance that the mean over a square of pixels is; 16 is the picture.
 double worst_error(const Scene& scene, std::uint32_t samples, double radiance,
                    std::size_t side = 1) {

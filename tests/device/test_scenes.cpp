@@ -42,6 +42,15 @@ Scene dark_tube() {
     return scene;
 }
 
+Scene box_of_tosses(double thickness) {
+    Scene scene = empty_scene(16, 0.1);
+    scene.integrator.absorption = Integrator::Absorption::analog;
+    add_shape(scene, box_mesh({-1, -1, 1}, {1, 1, 2}),
+              {.inside = add_medium(scene, Rgb(thickness), Rgb(0))});
+    add_infinite(scene);
+    return scene;
+}
+
 Scene busy_scene() {
     Scene scene = empty_scene(16);
     scene.camera.kind = Camera::Kind::perspective;

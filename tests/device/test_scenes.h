@@ -12,6 +12,10 @@ Mesh torus_mesh(int rings, int sides, bool normals = false);
 /// pixels.
 Scene dark_tube();
 
+/// A box that absorbs paths or lets them pass, by one random number each, before a sky of 1:
+/// exp(-thickness).
+Scene box_of_tosses(double thickness);
+
 /// A room of fog within a box of interfaces: floor, ball, torus with vertex normals, a cloud of
 /// another medium, an area light and a dim sky. 16 x 16 pixels.
 Scene busy_scene();
