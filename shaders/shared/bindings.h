@@ -16,8 +16,8 @@ TYNDALL_SHARED_BEGIN
 TYNDALL_CONSTANT int BINDING_SCENE = 0; // records.h; read only
 TYNDALL_CONSTANT int BINDING_PATHS =
     1; // state of the paths in flight: texel = group * slots + slot
-TYNDALL_CONSTANT int BINDING_BATCHES =
-    2; // sums of batches in flight: texel = (batch % window) * pixels + pixel
+TYNDALL_CONSTANT int BINDING_PIECES =
+    2; // sums of pieces in flight: texel = (piece % window) * pixels + pixel
 TYNDALL_CONSTANT int BINDING_FILM = 3;   // FILM_TEXELS a pixel
 TYNDALL_CONSTANT int BINDING_VOXELS = 4; // four voxels a texel, rgba16f or rgba32f; read only
 TYNDALL_CONSTANT int TEXEL_BUFFER_COUNT = 5;

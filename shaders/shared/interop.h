@@ -13,6 +13,7 @@
 namespace tyndall::shared {
 using glm::bitfieldReverse;
 using glm::clamp;
+using glm::findMSB;
 using glm::ivec3;
 using glm::uvec2;
 using glm::uvec3;

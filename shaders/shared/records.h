@@ -237,9 +237,9 @@ struct PushConstants {
     uint max_depth;
     uint first_sample; ///< Samples rendered: first_sample <= sample < end_sample
     uint end_sample;
-    uint first_batch; ///< Batch of ticket 0.
-    uint batch_count; ///< Batches of this epoch: tickets 0 ... batch_count * pixel_count - 1.
-    uint window;      ///< Batches that may be in flight at once: a power of two.
+    uint first_piece; ///< Piece of a batch (schedule.h) of ticket 0.
+    uint piece_count; ///< Pieces of this epoch: tickets 0 ... piece_count * pixel_count - 1.
+    uint window;      ///< Pieces that may be in flight at once: a power of two.
     uint filter_table;
     uint media;
     uint shapes;
@@ -259,7 +259,7 @@ struct PushConstants {
     float roulette_scale; ///< A path survives roulette with this times its throughput.
 };
 
-TYNDALL_CONSTANT int BATCH_WINDOW_MAX = 64;
+TYNDALL_CONSTANT int PIECE_WINDOW_MAX = 1024;
 
 // Queues of path slots, by what waits in them. Queue q holds its slots from q * slot_count on.
 TYNDALL_CONSTANT uint QUEUE_VOLUME = 0u;    // collided in a medium
@@ -283,17 +283,19 @@ struct DispatchSize {
 /// What the device tells itself and the host. Zeroed at the start of an epoch.
 struct Control {
     DispatchSize queue_dispatch[QUEUE_COUNT];
+    DispatchSize slot_dispatch; ///< All slots, or none if none has work.
     DispatchSize fold_dispatch;
     uint queue_size[QUEUE_COUNT];
-    uint queue_total[QUEUE_COUNT]; ///< Of the rounds before: what stages were given.
-    uint next_ticket;    ///< Work item = ticket: batch ticket / pixel_count, pixel ticket %
-                         ///< pixel_count.
-    uint ticket_limit;   ///< Tickets below may be worked on.
-    uint folded_batches; ///< Batches of this epoch that are in the film.
-    uint fold_count;     ///< Batches that the next fold adds.
-    uint fold_limit; ///< Batches of this epoch that may be folded: the host looks at them first.
-    uint fold_least; ///< Batches that are worth a fold before fold_limit, by the host.
-    uint finished[BATCH_WINDOW_MAX];  ///< Pixels finished of each batch in the window.
+    uint queue_total[QUEUE_COUNT]; ///< Of the rounds before: what stages were given,
+    uint slot_rounds;              ///< and rounds that were given all slots.
+    uint next_ticket;   ///< Work item = ticket: piece ticket / pixel_count, pixel ticket %
+                        ///< pixel_count.
+    uint ticket_limit;  ///< Tickets below may be worked on.
+    uint folded_pieces; ///< Pieces of this epoch that are in the film.
+    uint fold_count;    ///< Pieces that the next fold adds.
+    uint fold_limit;    ///< Pieces of this epoch that may be folded: the host looks at them first.
+    uint fold_least;    ///< Pieces that are worth a fold before fold_limit, by the host.
+    uint finished[PIECE_WINDOW_MAX];  ///< Pixels finished of each piece in the window.
     uint health[HEALTH_COUNT];        ///< Paths by kind of mishap (health.h);
     uint health_pixel[HEALTH_COUNT];  ///< of the first that was noticed, x | y << 16
     uint health_sample[HEALTH_COUNT]; ///< and the sample.
@@ -311,9 +313,9 @@ TYNDALL_CONSTANT uint PATH_DIRECTION = 1u;  // direction xyz | event
 TYNDALL_CONSTANT uint PATH_THROUGHPUT = 2u; // throughput rgb | depth
 TYNDALL_CONSTANT uint PATH_RADIANCE =
     3u; // radiance rgb | density of the last direction per steradian
-TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of batch, weight
-TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the batch: weight * radiance, weight
-// Ticket, pixel, slot of the batch in the window | distance to the surface (EMITTER queue)
+TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of piece, weight
+TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the piece: weight * radiance, weight
+// Ticket, pixel, slot of the piece in the window | distance to the surface (EMITTER queue)
 TYNDALL_CONSTANT uint PATH_TICKET = 6u;
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
@@ -332,7 +334,8 @@ TYNDALL_CONSTANT uint FILM_SUM = 0u;          // rgb, weight
 TYNDALL_CONSTANT uint FILM_COMPENSATION = 1u; // rgb, weight
 TYNDALL_CONSTANT uint FILM_RESIDUAL = 2u;     // sum c^2 of rgb | W
 TYNDALL_CONSTANT uint FILM_PAIR = 3u;         // residual of the last batch, rgb | G
-TYNDALL_CONSTANT uint FILM_TEXELS = 4u;
+TYNDALL_CONSTANT uint FILM_BATCH = 4u;        // sum over the pieces of the next batch so far
+TYNDALL_CONSTANT uint FILM_TEXELS = 5u;
 
 // Behind the pixels of the film: ERROR_TEXELS for each invocation of update_film, with its part of
 // the sums behind the stated error (stats/error_estimate.h). Norms are roots of sums of squares:

@@ -17,7 +17,7 @@ layout(push_constant, std430) uniform Push {
 
 layout(binding = BINDING_SCENE) uniform usamplerBuffer scene_texels;
 layout(binding = BINDING_PATHS, rgba32ui) readonly uniform uimageBuffer path_texels;
-layout(binding = BINDING_BATCHES, rgba32ui) uniform uimageBuffer batch_texels;
+layout(binding = BINDING_PIECES, rgba32ui) uniform uimageBuffer piece_texels;
 layout(binding = BINDING_FILM, rgba32ui) uniform uimageBuffer film_texels;
 layout(binding = BINDING_VOXELS) uniform samplerBuffer voxel_texels;
 layout(binding = STORAGE_TWIN + BINDING_VOXELS, std430) readonly buffer Voxels {
@@ -29,8 +29,8 @@ layout(binding = STORAGE_TWIN + BINDING_SCENE, std430) readonly buffer Scene {
 layout(binding = STORAGE_TWIN + BINDING_PATHS, std430) buffer Paths {
     uvec4 path_words[];
 };
-layout(binding = STORAGE_TWIN + BINDING_BATCHES, std430) buffer Batches {
-    uvec4 batch_words[];
+layout(binding = STORAGE_TWIN + BINDING_PIECES, std430) buffer Pieces {
+    uvec4 piece_words[];
 };
 layout(binding = STORAGE_TWIN + BINDING_FILM, std430) buffer Film {
     uvec4 film_words[];
@@ -68,15 +68,15 @@ float fetch_voxel(uint at) {
     return unpackHalf2x16(voxel_words[at >> 1])[at & 1u];
 }
 
-vec4 load_batch(uint texel) {
-    if (in_storage(BINDING_BATCHES)) return uintBitsToFloat(batch_words[texel]);
-    return uintBitsToFloat(imageLoad(batch_texels, int(texel)));
+vec4 load_piece(uint texel) {
+    if (in_storage(BINDING_PIECES)) return uintBitsToFloat(piece_words[texel]);
+    return uintBitsToFloat(imageLoad(piece_texels, int(texel)));
 }
-void store_batch(uint texel, vec4 value) {
-    if (in_texels(BINDING_BATCHES))
-        imageStore(batch_texels, int(texel), floatBitsToUint(value));
+void store_piece(uint texel, vec4 value) {
+    if (in_texels(BINDING_PIECES))
+        imageStore(piece_texels, int(texel), floatBitsToUint(value));
     else
-        batch_words[texel] = floatBitsToUint(value);
+        piece_words[texel] = floatBitsToUint(value);
 }
 
 vec4 load_film(uint texel) {

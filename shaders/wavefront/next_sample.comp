@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/interact.glsl"
 
-// Ends paths and begins the next: light from infinity for those that escape, the sum of the batch,
+// Ends paths and begins the next: light from infinity for those that escape, the sum of the piece,
 // then the camera ray of the next sample. The last stage of a round: pending shadow rays have been
 // traced.
 //
-//   ENDED queue -> ray, batches
+//   ENDED queue -> ray, pieces
 
 void escape(inout Path p, CameraRecord camera) {
     if (has_media != 0u && p.medium != VACUUM) travel(p, load_medium(p.medium), INFINITY, false);
@@ -24,7 +24,7 @@ void main() {
     load_throughput(slot, p);
     load_radiance(slot, p);
     load_sample(slot, p);
-    load_batch_state(slot, p);
+    load_piece_state(slot, p);
     if (p.status == STATUS_RAY) {
         if (can_go_on(p))
             escape(p, camera);

@@ -28,9 +28,9 @@ struct Path {
     uvec2 xy;  ///< Pixel in the picture.
     uint stream; ///< The pixel in the picture, for random numbers: pixel_stream.
     uint path_sample;
-    uint batch_end;
+    uint piece_end;
     float weight; ///< Of the pixel filter: 1 or -1.
-    vec4 sum;     ///< Over the samples of the batch: weight * radiance, weight.
+    vec4 sum;     ///< Over the samples of the piece: weight * radiance, weight.
     uint ticket;
     uint pixel; ///< In the rendered bounds.
     uint window_slot;
@@ -116,14 +116,14 @@ void load_sample(uint slot, inout Path p) {
     p.xy = uvec2(a.x & 0xFFFFu, a.x >> 16);
     p.stream = pixel_stream(p.xy);
     p.path_sample = a.y;
-    p.batch_end = a.z;
+    p.piece_end = a.z;
     p.weight = filter_kind == FILTER_TABLE ? uintBitsToFloat(a.w) : 1.0;
 }
 void store_sample(uint slot, Path p) {
     store_path(PATH_SAMPLE, slot,
-               uvec4(p.xy.x | p.xy.y << 16, p.path_sample, p.batch_end, floatBitsToUint(p.weight)));
+               uvec4(p.xy.x | p.xy.y << 16, p.path_sample, p.piece_end, floatBitsToUint(p.weight)));
 }
-/// What changes from sample to sample of a batch.
+/// What changes from sample to sample of a piece.
 void store_next_sample(uint slot, Path p) {
     store_path_word(PATH_SAMPLE, 1u, slot, p.path_sample);
     if (filter_kind == FILTER_TABLE)
@@ -131,7 +131,7 @@ void store_next_sample(uint slot, Path p) {
     store_colour(PATH_SUM, slot, p.sum.xyz, floatBitsToUint(p.sum.w));
 }
 
-void load_batch_state(uint slot, inout Path p) {
+void load_piece_state(uint slot, inout Path p) {
     const uvec4 a = load_path(PATH_TICKET, slot);
     p.sum = uintBitsToFloat(load_path(PATH_SUM, slot));
     p.sum.xyz = colour(p.sum.xyz);
@@ -220,7 +220,7 @@ bool is_radiance(vec3 v) {
     return min(min(v.x, v.y), v.z) >= 0.0 && v.x + v.y + v.z <= FLOAT_MAX; // false for NaN
 }
 
-/// Adds the ended path to the sum of its batch; as black if what it has is no radiance, or if it
+/// Adds the ended path to the sum of its piece; as black if what it has is no radiance, or if it
 /// went nowhere. False if anything went wrong with it: then it is for report_path.
 bool finish_sample(inout Path p, CameraRecord camera) {
     vec3 radiance = p.radiance * camera.exposure;
@@ -255,41 +255,48 @@ uint divide(uint n, uint d, out uint remainder) {
     return quotient + uint(correction);
 }
 
-/// Sets the path to the first sample of its ticket's batch, if the ticket is due.
+/// Whether the ticket may be worked on.
+bool is_due(uint ticket) {
+    return ticket < control.ticket_limit;
+}
+
+/// Sets the path to the first sample of its ticket's piece, if the ticket is due.
 void start_ticket(inout Path p) {
-    if (p.ticket >= control.ticket_limit) {
+    if (!is_due(p.ticket)) {
         p.status = STATUS_WAITING;
         return;
     }
-    const uint batch = divide(p.ticket, push.pixel_count, p.pixel);
-    p.window_slot = batch & (push.window - 1u);
+    const uint piece = divide(p.ticket, push.pixel_count, p.pixel);
+    p.window_slot = piece & (push.window - 1u);
     uint column;
     const uint row = divide(p.pixel, push.width, column);
     p.xy = uvec2(push.x0 + column, push.y0 + row);
     p.stream = pixel_stream(p.xy);
-    p.path_sample = max(push.first_sample, batch_first_sample(push.first_batch + batch));
-    p.batch_end = min(push.end_sample, batch_first_sample(push.first_batch + batch + 1u));
+    const uint number = push.first_piece + piece,
+               limit = piece_log2_limit(geometry == GEOMETRY_BVH);
+    p.path_sample = max(push.first_sample, first_sample_of(number, limit));
+    p.piece_end = min(push.end_sample, first_sample_of(number + 1u, limit));
     p.sum = vec4(0);
     p.status = STATUS_ENDED;
 }
 
-/// Hands over the sum of the batch.
-void finish_batch(inout Path p) {
-    store_batch(p.window_slot * push.pixel_count + p.pixel, p.sum);
+/// Hands over the sum of the piece.
+void finish_piece(inout Path p) {
+    store_piece(p.window_slot * push.pixel_count + p.pixel, p.sum);
     atomicAdd(control.finished[p.window_slot], 1u);
 }
 
-/// Gives a slot without a path its next batch of samples, if one is due: afterwards its status is
+/// Gives a slot without a path its next piece of a batch, if one is due: afterwards its status is
 /// STATUS_ENDED with no sample done, or STATUS_WAITING.
 void take_work(inout Path p) {
-    if (p.status == STATUS_ENDED) finish_batch(p);
+    if (p.status == STATUS_ENDED) finish_piece(p);
     if (p.status != STATUS_WAITING) p.ticket = atomicAdd(control.next_ticket, 1u);
     start_ticket(p);
 }
 
-/// Whether all samples of the batch are done (or there is no batch).
+/// Whether all samples of the piece are done (or there is no piece).
 bool needs_work(Path p) {
-    return p.status != STATUS_RAY && (p.status != STATUS_ENDED || p.path_sample == p.batch_end);
+    return p.status != STATUS_RAY && (p.status != STATUS_ENDED || p.path_sample == p.piece_end);
 }
 
 #endif

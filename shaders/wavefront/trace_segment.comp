@@ -21,6 +21,7 @@ void main() {
     Hit hit = Hit(INFINITY, NONE, NONE);
     uint queue = p.status == STATUS_TRACKING ? QUEUE_TRACK
                                              : QUEUE_ENDED; // ENDED: waits for work, or escapes
+    if (p.status == STATUS_WAITING && !is_due(load_path(PATH_TICKET, slot).x)) return;
     if (p.status == STATUS_RAY && can_go_on(p)) {
         hit = meet(p.origin, p.direction, INFINITY, false, NO_SKIP, p.medium);
         const Hit surface = hit;

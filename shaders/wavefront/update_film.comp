@@ -2,9 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "wavefront/buffers.glsl"
 
-// Folds complete batches into the film, in order, and sums up what tells its error.
+// Folds pieces of batches into the film, in order: into the sum of their batch and, once that is
+// whole, into the sum over all and into what tells its error.
 //
-//   batches -> film
+//   pieces -> film
 
 /// Adds to a sum what rounding keeps out of it in `compensation` (Neumaier 1974), which is kept
 /// below the rounding of the sum (Dekker 1971): it would lose its own additions after 2^24 samples.
@@ -40,6 +41,7 @@ struct FilmPixel {
     vec4 compensation;
     vec4 residual;
     vec4 pair;
+    vec4 batch;
 };
 
 /// Sums over contrasts (ERROR_*).
@@ -57,7 +59,7 @@ uint rendered_first_sample(uint batch) {
 float film_unit = uintBitsToFloat(fetch_scene(MARCH_TEXEL).z);
 
 /// Adds a batch to the pixel, and its contrast to the errors.
-void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
+void fold_batch(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
     const uint first = rendered_first_sample(batch);
     const float before = float(first - push.first_sample);
     const float count = float(rendered_first_sample(batch + 1u) - first);
@@ -90,10 +92,31 @@ void fold(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors
     add_compensated(film.sum, film.compensation, value);
 }
 
+/// Adds the pieces that are due, and all batches that are whole with them. A batch at a time: a CPU
+/// driver executes what stands in a loop whenever it goes round.
+void fold(uint pixel, inout FilmPixel film, inout BatchErrors errors) {
+    const uint limit = piece_log2_limit(geometry == GEOMETRY_BVH);
+    const uint end = control.folded_pieces + control.fold_count;
+    uint piece = control.folded_pieces;
+    while (piece < end) {
+        const uint batch =
+            number_of(first_sample_of(push.first_piece + piece, limit), BATCH_LOG2_LIMIT);
+        const uint batch_end = number_of(rendered_first_sample(batch + 1u) - 1u, limit) + 1u;
+        const uint stop = min(end, batch_end - push.first_piece);
+        for (; piece < stop; ++piece)
+            film.batch += load_piece((piece % push.window) * push.pixel_count + pixel);
+        if (push.first_piece + piece == batch_end) {
+            fold_batch(batch, film.batch, film, errors);
+            film.batch = vec4(0);
+        }
+    }
+}
+
 /// Loads a pixel.
 FilmPixel load_pixel(uint at) {
     return FilmPixel(load_film(at + FILM_SUM), load_film(at + FILM_COMPENSATION),
-                     load_film(at + FILM_RESIDUAL), load_film(at + FILM_PAIR));
+                     load_film(at + FILM_RESIDUAL), load_film(at + FILM_PAIR),
+                     load_film(at + FILM_BATCH));
 }
 
 void store_pixel(uint at, FilmPixel film) {
@@ -101,6 +124,7 @@ void store_pixel(uint at, FilmPixel film) {
     store_film(at + FILM_COMPENSATION, film.compensation);
     store_film(at + FILM_RESIDUAL, film.residual);
     store_film(at + FILM_PAIR, film.pair);
+    store_film(at + FILM_BATCH, film.batch);
 }
 
 void main() {
@@ -112,11 +136,7 @@ void main() {
     for (uint pixel = lane; pixel < push.pixel_count; pixel += lanes) {
         const uint at = pixel * FILM_TEXELS;
         FilmPixel film = load_pixel(at);
-        for (uint i = 0u; i < control.fold_count; ++i) {
-            const uint batch = control.folded_batches + i;
-            fold(push.first_batch + batch,
-                 load_batch((batch % push.window) * push.pixel_count + pixel), film, batch_errors);
-        }
+        fold(pixel, film, batch_errors);
         store_pixel(at, film);
         if (film.sum.w == 0.0) continue;
         const vec3 mean = film.sum.xyz / film.sum.w * film_unit;

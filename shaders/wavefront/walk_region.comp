@@ -101,13 +101,13 @@ void main() {
     load_throughput(slot, p);
     load_radiance(slot, p);
     load_sample(slot, p);
-    load_batch_state(slot, p);
+    load_piece_state(slot, p);
     bool is_sound = true;
     for (uint done = 0u; done < push.run_length && is_sound; done += chunk) {
         if (needs_work(p)) take_work(p);
         if (p.status == STATUS_WAITING) break;
         for (uint i = 0u; i < chunk; ++i) {
-            if (p.status == STATUS_ENDED && (p.path_sample == p.batch_end || !is_sound)) break;
+            if (p.status == STATUS_ENDED && (p.path_sample == p.piece_end || !is_sound)) break;
             advance(p, camera, medium);
             keep_channels(p);
             if (p.status == STATUS_ENDED) is_sound = finish_sample(p, camera);

@@ -60,7 +60,7 @@ void check_size(const Context& context, const Buffer& buffer, const char* what) 
 }
 
 constexpr std::array<const char*, shared::TEXEL_BUFFER_COUNT> kTexelBufferNames{
-    "scene", "state of the paths", "batches in flight", "film", "voxels"};
+    "scene", "state of the paths", "pieces in flight", "film", "voxels"};
 
 } // namespace
 

@@ -1,35 +1,38 @@
 #include "render/batch_range.h"
 
-#include "shared/schedule.h"
-
 #include <algorithm>
-#include <bit>
 
 namespace tyndall {
 namespace {
 
-using shared::batch_first_sample;
-
-/// The batch that holds the sample: the inverse of batch_first_sample.
 std::uint32_t batch_of(std::uint32_t sample) {
-    using shared::BATCH_LOG2_LIMIT;
-    constexpr std::uint32_t first_whole = 4u << BATCH_LOG2_LIMIT;
-    if (sample < 4) return sample;
-    if (sample >= first_whole)
-        return 4 + 2 * BATCH_LOG2_LIMIT + ((sample - first_whole) >> BATCH_LOG2_LIMIT);
-    const auto octave = static_cast<std::uint32_t>(std::bit_width(sample)) - 3;
-    return 4 + 2 * octave + ((sample - (4u << octave)) >> (octave + 1));
+    return shared::number_of(sample, shared::BATCH_LOG2_LIMIT);
 }
 
 } // namespace
 
-BatchRange::BatchRange(std::uint32_t first_sample, std::uint32_t end_sample)
+BatchRange::BatchRange(std::uint32_t first_sample, std::uint32_t end_sample,
+                       std::uint32_t piece_log2_limit)
     : first_sample_(first_sample), end_sample_(end_sample), first_(batch_of(first_sample)),
-      end_(batch_of(end_sample - 1) + 1) {}
+      end_(batch_of(end_sample - 1) + 1), piece_log2_limit_(piece_log2_limit) {}
+
+/// Of the samples before one, those that are in the range.
+std::uint32_t BatchRange::rendered_before(std::uint32_t sample) const {
+    return std::clamp(sample, first_sample_, end_sample_) - first_sample_;
+}
 
 std::uint32_t BatchRange::samples_before(std::uint32_t batch) const {
-    const std::uint32_t end = std::min(batch_first_sample(batch), end_sample_);
-    return end > first_sample_ ? end - first_sample_ : 0;
+    return rendered_before(shared::batch_first_sample(batch));
+}
+
+std::uint32_t BatchRange::samples_before_piece(std::uint32_t piece) const {
+    return rendered_before(shared::first_sample_of(piece, piece_log2_limit_));
+}
+
+std::uint32_t BatchRange::first_piece(std::uint32_t batch) const {
+    const std::uint32_t sample = first_sample_ + samples_before(batch);
+    if (sample == end_sample_) return shared::number_of(sample - 1, piece_log2_limit_) + 1;
+    return shared::number_of(sample, piece_log2_limit_);
 }
 
 std::uint32_t BatchRange::next_look(std::uint32_t batch) const {

@@ -60,7 +60,9 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
                                const KeepGoing& keep_going) {
     if (first_sample >= end_sample)
         throw Error(ExitStatus::failed, "a render needs one sample per pixel or more");
-    batches_ = {first_sample, end_sample};
+    const std::uint32_t piece_log2_limit =
+        shared::piece_log2_limit(wavefront_.features().geometry == shared::GEOMETRY_BVH);
+    batches_ = {first_sample, end_sample, piece_log2_limit};
     contrasts_ = {};
     error_.reset();
     histogram_ = {};
@@ -69,23 +71,32 @@ std::uint32_t Renderer::render(std::uint32_t first_sample, std::uint32_t end_sam
     folded_batches_ = contrasted_batches_ = batches_.first();
     look_batch_ = keep_going ? batches_.next_look(batches_.first()) : batches_.end();
     // Tickets are 32-bit words: an epoch has as many batches as they can number.
-    const std::uint32_t per_epoch = std::max(1u, 0x7FFFFFFFu / tables_.push.pixel_count);
+    const std::uint32_t per_epoch = std::max(1u, 0x7FFFFFFFu / tables_.push.pixel_count >>
+                                                     (shared::BATCH_LOG2_LIMIT - piece_log2_limit));
     for (bool first_epoch = true; folded_batches_ < batches_.end(); first_epoch = false) {
         const std::uint32_t count = std::min(per_epoch, batches_.end() - folded_batches_);
         epoch_batch_ = folded_batches_;
+        epoch_piece_ = folded_pieces_ = batches_.first_piece(epoch_batch_);
         health_.restart();
         stage_times_.restart();
-        wavefront_.begin_epoch(epoch_batch_, count, first_sample, end_sample, first_epoch);
+        wavefront_.begin_epoch(epoch_piece_,
+                               batches_.first_piece(epoch_batch_ + count) - epoch_piece_,
+                               first_sample, end_sample, first_epoch);
         if (!run_epoch(count, keep_going)) break;
     }
     measure_error();
     return samples();
 }
 
+/// Pieces of the epoch that may be in the film before the next look.
+std::uint32_t Renderer::fold_limit() const {
+    return batches_.first_piece(look_batch_) - epoch_piece_;
+}
+
 void Renderer::submit(Flight& flight) {
     flight.commands.begin();
     flight.rounds = rounds_;
-    wavefront_.record_rounds(flight.commands, rounds_, look_batch_ - epoch_batch_, flight.clock);
+    wavefront_.record_rounds(flight.commands, rounds_, fold_limit(), flight.clock);
     wavefront_.record_readback(flight.commands, flight.control);
     flight.commands.submit();
 }
@@ -100,25 +111,29 @@ void Renderer::land(Flight& flight) {
 }
 
 void Renderer::take_in(const Control& control) {
-    // The last round's update_film has folded fold_count batches on top of folded_batches.
-    folded_batches_ = epoch_batch_ + control.folded_batches + control.fold_count;
+    // The last round's update_film has folded fold_count pieces on top of folded_pieces.
+    folded_pieces_ = epoch_piece_ + control.folded_pieces + control.fold_count;
+    while (folded_batches_ < batches_.end() &&
+           batches_.first_piece(folded_batches_ + 1) <= folded_pieces_)
+        ++folded_batches_;
     health_.take_in(control);
     stage_times_.take_in(control);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
-    samples_done_ = samples();
-    const std::uint32_t window = wavefront_.window(), pending = folded_batches_ - epoch_batch_;
-    for (std::uint32_t batch = pending; batch < pending + window; ++batch)
-        samples_done_ += batches_.samples_of(epoch_batch_ + batch) *
-                         (control.finished[batch % window] / double(tables_.push.pixel_count));
+    samples_done_ = batches_.samples_before_piece(folded_pieces_);
+    const std::uint32_t window = wavefront_.window(), pending = folded_pieces_ - epoch_piece_;
+    for (std::uint32_t piece = pending; piece < pending + window; ++piece)
+        samples_done_ += (batches_.samples_before_piece(epoch_piece_ + piece + 1) -
+                          batches_.samples_before_piece(epoch_piece_ + piece)) *
+                         (control.finished[piece % window] / double(tables_.push.pixel_count));
     if (epoch_batch_ == batches_.first())
         std::copy_n(control.sample_histogram, histogram_.size(), histogram_.begin());
 }
 
-/// Brings the film up to date: with all batches that are complete, up to the next look.
+/// Brings the film up to date: with all that is complete, up to the next look.
 void Renderer::fold() {
-    for (std::uint32_t before = ~0u; folded_batches_ != before;) {
-        before = folded_batches_;
-        wavefront_.fold(look_batch_ - epoch_batch_);
+    for (std::uint32_t before = ~0u; folded_pieces_ != before;) {
+        before = folded_pieces_;
+        wavefront_.fold(fold_limit());
         take_in(wavefront_.read_control());
     }
 }
@@ -131,12 +146,14 @@ void Renderer::measure_error() {
         stats::estimate_error(contrasts_, wavefront_.read_error_sums(), tables_.push.pixel_count);
 }
 
-/// Samples begun of each pixel; between batches, in proportion.
+/// Samples begun of each pixel; between pieces, in proportion.
 double Renderer::samples_begun(std::uint32_t batch_count) const {
-    const double batches = std::min<double>(epoch_share_, batch_count);
-    const auto whole = static_cast<std::uint32_t>(batches);
-    const double first = batches_.samples_before(epoch_batch_ + whole);
-    return first + (batches_.samples_before(epoch_batch_ + whole + 1) - first) * (batches - whole);
+    const std::uint32_t end = batches_.first_piece(epoch_batch_ + batch_count);
+    const double pieces = std::min<double>(epoch_share_, end - epoch_piece_);
+    const auto whole = epoch_piece_ + static_cast<std::uint32_t>(pieces);
+    const double first = batches_.samples_before_piece(whole);
+    return first +
+           (batches_.samples_before_piece(whole + 1) - first) * (epoch_piece_ + pieces - whole);
 }
 
 /// Looks if it is time to, and asks whether to go on.

@@ -84,6 +84,7 @@ class Renderer {
     bool run_epoch(std::uint32_t batch_count, const KeepGoing& keep_going);
     bool ask(std::uint32_t batch_count, const KeepGoing& keep_going);
     double samples_begun(std::uint32_t batch_count) const;
+    std::uint32_t fold_limit() const;
     void submit(Flight& flight);
     void land(Flight& flight);
     void take_in(const shared::Control& control);
@@ -98,8 +99,10 @@ class Renderer {
     Wavefront wavefront_;
     double compile_seconds_;
     BatchRange batches_;
-    std::uint32_t epoch_batch_ = 0;    ///< First batch of the present epoch.
-    std::uint32_t folded_batches_ = 0; ///< End of the batches in the film.
+    std::uint32_t epoch_batch_ = 0;    ///< First batch of the present epoch,
+    std::uint32_t epoch_piece_ = 0;    ///< its first piece, and the end of those
+    std::uint32_t folded_pieces_ = 0;  ///< that are in the film.
+    std::uint32_t folded_batches_ = 0; ///< End of the batches in the film that are whole.
     std::uint32_t look_batch_ = 0;     ///< No more are folded before the next look.
     double epoch_share_ = 0;           ///< Of the epoch's tickets that were taken.
     double samples_done_ = 0;          ///< Per pixel, those of batches in part included.

@@ -14,18 +14,19 @@ void StageTimes::add(const std::vector<double>& seconds, std::uint32_t rounds) {
     for (std::size_t i = 0; i < list_.size(); ++i) {
         list_[i].dispatches += rounds;
         list_[i].seconds += seconds[i] * rounds;
-        if (stages_[i]->input == StageInput::slots)
-            list_[i].paths += std::uint64_t{rounds} * slots_;
     }
 }
 
 void StageTimes::take_in(const shared::Control& control) {
     for (std::size_t i = 0; i < list_.size(); ++i) {
-        if (stages_[i]->input != StageInput::queue) continue;
         const std::uint32_t queue = stages_[i]->queue;
-        list_[i].paths += control.queue_total[queue] - seen_[queue]; // modulo 2^32
+        if (stages_[i]->input == StageInput::queue) // modulo 2^32
+            list_[i].paths += control.queue_total[queue] - seen_queues_[queue];
+        if (stages_[i]->input == StageInput::slots)
+            list_[i].paths += std::uint64_t{control.slot_rounds - seen_rounds_} * slots_;
     }
-    std::copy_n(control.queue_total, seen_.size(), seen_.begin());
+    std::copy_n(control.queue_total, seen_queues_.size(), seen_queues_.begin());
+    seen_rounds_ = control.slot_rounds;
 }
 
 } // namespace tyndall

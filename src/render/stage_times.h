@@ -24,7 +24,10 @@ class StageTimes {
     StageTimes(std::vector<const StageKind*> stages, std::uint32_t slots);
 
     /// The device starts again from zero.
-    void restart() { seen_ = {}; }
+    void restart() {
+        seen_queues_ = {};
+        seen_rounds_ = 0;
+    }
     /// Takes in a submission of so many rounds, of which the first took so long by stage.
     void add(const std::vector<double>& seconds, std::uint32_t rounds);
     /// Takes in the control block, whose counters wrap at 2^32.
@@ -36,7 +39,8 @@ class StageTimes {
     std::vector<const StageKind*> stages_;
     std::uint32_t slots_ = 0;
     std::vector<StageTime> list_;
-    std::array<std::uint32_t, shared::QUEUE_COUNT> seen_{}; ///< Of Control::queue_total.
+    std::array<std::uint32_t, shared::QUEUE_COUNT> seen_queues_{}; ///< Of Control::queue_total.
+    std::uint32_t seen_rounds_ = 0;                                ///< Of Control::slot_rounds.
 };
 
 } // namespace tyndall

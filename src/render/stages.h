@@ -14,10 +14,10 @@ namespace tyndall {
 
 /// What a stage runs on.
 enum class StageInput {
-    slots, ///< All slots of paths.
+    slots, ///< All slots of paths, if any has work.
     queue, ///< The slots in its queue.
     once,  ///< Nothing: one invocation.
-    folds, ///< The pixels of batches that are complete.
+    folds, ///< The pixels of pieces that are complete.
 };
 
 struct StageKind {

@@ -15,10 +15,10 @@ using namespace shared;
 /// Bytes before the records of the event log.
 constexpr std::uint64_t kLogHeader = 16;
 
-/// Batches in flight at once: enough work for every path, bounded memory. A power of two.
-std::uint32_t batch_window(std::uint32_t pixels) {
+/// Pieces in flight at once: enough work for every path, bounded memory. A power of two.
+std::uint32_t piece_window(std::uint32_t pixels) {
     constexpr std::uint32_t wanted_items = 1u << 21;
-    return std::clamp<std::uint32_t>(std::bit_floor(wanted_items / pixels), 2, BATCH_WINDOW_MAX);
+    return std::clamp<std::uint32_t>(std::bit_floor(wanted_items / pixels), 2, PIECE_WINDOW_MAX);
 }
 
 Tuning choose_tuning(const gpu::Context& context, const shared::Features& features, Tuning tuning) {
@@ -45,11 +45,11 @@ Wavefront::Wavefront(const gpu::Context& context, const SceneTables& tables, con
     : context_(&context), kinds_(kinds), features_(tables.features(effects.features)),
       tuning_(choose_tuning(context, effects.features, tuning)), push_(tables.push),
       table_bytes_(tables.bytes) {
-    push_.window = batch_window(push_.pixel_count);
+    push_.window = piece_window(push_.pixel_count);
     const std::uint64_t pixels = push_.pixel_count;
     const gpu::Buffer::Options texels{.texels = true};
     scene_ = {context, "scene", tables.texels.size() * 16, texels};
-    batches_ = {context, "batches", pixels * push_.window * 16, texels};
+    pieces_ = {context, "pieces", pixels * push_.window * 16, texels};
     film_ = {context, "film",
              (pixels * FILM_TEXELS + fold_lanes(push_.pixel_count) * ERROR_TEXELS) * 16, texels};
     control_ = {context, "control", sizeof(Control), {.indirect = true}};
@@ -82,7 +82,7 @@ void Wavefront::allocate_paths() {
     queues_ = {*context_, "queues", has_hierarchy ? slots * QUEUE_COUNT * 4 : 16, {}};
     descriptors_.emplace(
         *context_,
-        gpu::Bindings{{&scene_, &paths_, &batches_, &film_, &voxels_}, &control_, &queues_, &log_},
+        gpu::Bindings{{&scene_, &paths_, &pieces_, &film_, &voxels_}, &control_, &queues_, &log_},
         static_cast<std::uint32_t>(sizeof(push_)));
     features_.workgroup_size = tuning_.workgroup_size;
     features_.storage_fallback = descriptors_->storage_fallback();
@@ -110,10 +110,10 @@ void Wavefront::set_seed(std::uint64_t seed) {
     push_.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
 }
 
-void Wavefront::begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
+void Wavefront::begin_epoch(std::uint32_t first_piece, std::uint32_t piece_count,
                             std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film) {
-    push_.first_batch = first_batch;
-    push_.batch_count = batch_count;
+    push_.first_piece = first_piece;
+    push_.piece_count = piece_count;
     push_.first_sample = first_sample;
     push_.end_sample = end_sample;
     gpu::Commands commands(*context_);
@@ -137,7 +137,7 @@ void Wavefront::record_stage(gpu::Commands& commands, const BuiltStage& built) c
     };
     switch (kind.input) {
     case StageInput::slots:
-        commands.dispatch(built.stage, push_.slot_count);
+        indirect(offsetof(Control, slot_dispatch));
         break;
     case StageInput::queue:
         indirect(offsetof(Control, queue_dispatch) + kind.queue * sizeof(DispatchSize));
@@ -162,7 +162,7 @@ void Wavefront::record_fold_limits(gpu::Commands& commands, std::uint32_t limit,
 
 void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
                               std::uint32_t fold_limit, const gpu::Timestamps& clock) const {
-    // Each fold reads and writes the whole film, so several batches at once; but the rest of the
+    // Each fold reads and writes the whole film, so several pieces at once; but the rest of the
     // window must be work enough meanwhile.
     record_fold_limits(commands, fold_limit, std::max(push_.window / 4, 1u));
     commands.reset(clock);
@@ -238,7 +238,7 @@ std::vector<std::pair<std::string, std::uint64_t>> Wavefront::memory() const {
     auto bytes = table_bytes_;
     if (features_.densities & DENSITY_BIT_GRID) bytes.emplace_back("voxels", voxels_.bytes());
     bytes.emplace_back("paths in flight", paths_.bytes());
-    bytes.emplace_back("batches in flight", batches_.bytes());
+    bytes.emplace_back("pieces in flight", pieces_.bytes());
     bytes.emplace_back("film", film_.bytes());
     bytes.emplace_back("queues", queues_.bytes());
     return bytes;

@@ -40,18 +40,18 @@ class Wavefront {
     /// Of the random numbers from the next epoch on; before, it is the scene's.
     void set_seed(std::uint64_t seed);
 
-    /// Forgets paths in flight, so that batches first_batch ... first_batch + batch_count - 1 can
-    /// be rendered, of which samples first_sample <= s < end_sample. The film is kept, or zeroed
-    /// with `clear_film`.
-    void begin_epoch(std::uint32_t first_batch, std::uint32_t batch_count,
+    /// Forgets paths in flight, so that pieces first_piece ... first_piece + piece_count - 1 of
+    /// batches (shared/schedule.h) can be rendered, of which samples first_sample <= s <
+    /// end_sample. The film is kept, or zeroed with `clear_film`.
+    void begin_epoch(std::uint32_t first_piece, std::uint32_t piece_count,
                      std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film);
 
     /// Records `rounds` rounds; each advances every path by at least one event. No more than
-    /// `fold_limit` batches of the epoch get into the film. The first round is timed: `clock` has
+    /// `fold_limit` pieces of the epoch get into the film. The first round is timed: `clock` has
     /// one mark more than there are stages.
     void record_rounds(gpu::Commands& commands, std::uint32_t rounds, std::uint32_t fold_limit,
                        const gpu::Timestamps& clock) const;
-    /// Folds batches that are complete, as rounds do only once they are several, up to
+    /// Folds pieces that are complete, as rounds do only once they are several, up to
     /// `fold_limit`.
     void fold(std::uint32_t fold_limit) const;
     /// Records the copy of the control block into `to` (host visible).
@@ -68,7 +68,7 @@ class Wavefront {
     EventLog read_log() const;
 
     const Tuning& tuning() const { return tuning_; }
-    /// Batches that are worked on at the same time, at most.
+    /// Pieces that are worked on at the same time, at most.
     std::uint32_t window() const { return push_.window; }
     const shared::Features& features() const { return features_; }
     std::vector<std::pair<std::string, std::uint64_t>> memory() const;
@@ -92,7 +92,7 @@ class Wavefront {
     Tuning tuning_;
     shared::PushConstants push_;
     std::vector<std::pair<std::string, std::uint64_t>> table_bytes_;
-    gpu::Buffer scene_, paths_, batches_, film_, voxels_, control_, queues_, log_;
+    gpu::Buffer scene_, paths_, pieces_, film_, voxels_, control_, queues_, log_;
     std::optional<gpu::Descriptors> descriptors_;
     std::vector<BuiltStage> stages_; ///< Those that the effects call for.
     std::size_t schedule_ = 0;       ///< Index of that stage.

@@ -24,7 +24,7 @@ class Evaluator {
 
   private:
     const gpu::Context* context_;
-    gpu::Buffer arguments_, values_, unused_paths_, unused_batches_, unused_voxels_, control_,
+    gpu::Buffer arguments_, values_, unused_paths_, unused_pieces_, unused_voxels_, control_,
         queues_;
     gpu::Descriptors descriptors_;
     gpu::Stage stage_;

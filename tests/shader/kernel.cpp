@@ -19,12 +19,12 @@ Kernel::Kernel(const char* name, std::span<const std::uint32_t> spirv, std::uint
     : input_(support::gpu_context(), "input", std::uint64_t{input_texels} * 16, kTexels),
       output_(support::gpu_context(), "output", std::uint64_t{output_texels} * 16, kTexels),
       unused_paths_(support::gpu_context(), "paths", 16, kTexels),
-      unused_batches_(support::gpu_context(), "batches", 16, kTexels),
+      unused_pieces_(support::gpu_context(), "pieces", 16, kTexels),
       unused_voxels_(support::gpu_context(), "voxels", 16, kTexels),
       control_(support::gpu_context(), "control", sizeof(shared::Control), {}),
       queues_(support::gpu_context(), "queues", 16, {}),
       descriptors_(support::gpu_context(),
-                   {{&input_, &unused_paths_, &unused_batches_, &output_, &unused_voxels_},
+                   {{&input_, &unused_paths_, &unused_pieces_, &output_, &unused_voxels_},
                     &control_,
                     &queues_,
                     &queues_}, // the log is not used
@@ -40,8 +40,8 @@ void Kernel::run_bytes(const Task& task, std::span<const std::byte> input, std::
     if (!input.empty()) gpu::upload(context, input_, input);
     push.slot_count = count;
     push.first_sample = task.first;
-    push.first_batch = task.function;
-    push.batch_count = task.variant;
+    push.first_piece = task.function;
+    push.piece_count = task.variant;
     push.full_width = std::bit_cast<std::uint32_t>(task.number);
     gpu::Commands commands(context);
     commands.begin();

@@ -12,10 +12,10 @@ uint global_index() {
     return gl_GlobalInvocationID.x + push.first_sample;
 }
 uint wanted() {
-    return push.first_batch;
+    return push.first_piece;
 }
 uint variant() {
-    return push.batch_count;
+    return push.piece_count;
 }
 float number() {
     return uintBitsToFloat(push.full_width);

@@ -54,7 +54,7 @@ class Kernel {
     void run_bytes(const Task& task, std::span<const std::byte> input, std::uint32_t count,
                    std::span<std::byte> output);
 
-    gpu::Buffer input_, output_, unused_paths_, unused_batches_, unused_voxels_, control_, queues_;
+    gpu::Buffer input_, output_, unused_paths_, unused_pieces_, unused_voxels_, control_, queues_;
     gpu::Descriptors descriptors_;
     gpu::Stage stage_;
 };

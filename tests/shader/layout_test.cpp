@@ -145,12 +145,12 @@ TEST_F(Layout, EveryPushConstantArrives) {
     const Task task{.function = 1, .variant = 501, .first = 502, .number = 503};
     const auto texels = kernel.run<std::array<glm::uvec4, 8>>(task, 1)[0];
     const PushConstants& p = kernel.push;
-    EXPECT_EQ(p.batch_count, 501u);
+    EXPECT_EQ(p.piece_count, 501u);
     expect_equal({texels.begin(), texels.end()},
                  {{p.seed.x, p.seed.y, p.slot_count, p.run_length},
                   {p.width, p.pixel_count, p.x0, p.y0},
                   {p.full_width, p.max_depth, p.first_sample, p.end_sample},
-                  {p.first_batch, p.batch_count, p.window, p.filter_table},
+                  {p.first_piece, p.piece_count, p.window, p.filter_table},
                   {p.media, p.shapes, p.primitives, p.nodes},
                   {p.vertex_normals, p.quadrics, p.instances, p.lights},
                   {p.light_count, p.region, p.triangle_root, p.other_root},
@@ -168,16 +168,19 @@ TEST_F(Layout, EveryFieldOfTheControlBlockArrives) {
         EXPECT_EQ(d.y, next++);
         EXPECT_EQ(d.z, next++);
     }
-    EXPECT_EQ(control.fold_dispatch.x, next++);
-    EXPECT_EQ(control.fold_dispatch.y, next++);
-    EXPECT_EQ(control.fold_dispatch.z, next++);
+    for (const DispatchSize& d : {control.slot_dispatch, control.fold_dispatch}) {
+        EXPECT_EQ(d.x, next++);
+        EXPECT_EQ(d.y, next++);
+        EXPECT_EQ(d.z, next++);
+    }
     for (std::uint32_t size : control.queue_size)
         EXPECT_EQ(size, next++);
     for (std::uint32_t total : control.queue_total)
         EXPECT_EQ(total, next++);
+    EXPECT_EQ(control.slot_rounds, next++);
     EXPECT_EQ(control.next_ticket, next++);
     EXPECT_EQ(control.ticket_limit, next++);
-    EXPECT_EQ(control.folded_batches, next++);
+    EXPECT_EQ(control.folded_pieces, next++);
     EXPECT_EQ(control.fold_count, next++);
     EXPECT_EQ(control.fold_limit, next++);
     EXPECT_EQ(control.fold_least, next++);

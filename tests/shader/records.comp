@@ -83,7 +83,7 @@ void put_push() {
     put(uvec4(p.seed, p.slot_count, p.run_length));
     put(uvec4(p.width, p.pixel_count, p.x0, p.y0));
     put(uvec4(p.full_width, p.max_depth, p.first_sample, p.end_sample));
-    put(uvec4(p.first_batch, p.batch_count, p.window, p.filter_table));
+    put(uvec4(p.first_piece, p.piece_count, p.window, p.filter_table));
     put(uvec4(p.media, p.shapes, p.primitives, p.nodes));
     put(uvec4(p.vertex_normals, p.quadrics, p.instances, p.lights));
     put(uvec4(p.light_count, p.region, p.triangle_root, p.other_root));
@@ -100,18 +100,20 @@ DispatchSize next_size() {
 void fill_control() {
     for (uint i = 0u; i < QUEUE_COUNT; ++i)
         control.queue_dispatch[i] = next_size();
+    control.slot_dispatch = next_size();
     control.fold_dispatch = next_size();
     for (uint i = 0u; i < QUEUE_COUNT; ++i)
         control.queue_size[i] = count++;
     for (uint i = 0u; i < QUEUE_COUNT; ++i)
         control.queue_total[i] = count++;
+    control.slot_rounds = count++;
     control.next_ticket = count++;
     control.ticket_limit = count++;
-    control.folded_batches = count++;
+    control.folded_pieces = count++;
     control.fold_count = count++;
     control.fold_limit = count++;
     control.fold_least = count++;
-    for (uint i = 0u; i < uint(BATCH_WINDOW_MAX); ++i)
+    for (uint i = 0u; i < uint(PIECE_WINDOW_MAX); ++i)
         control.finished[i] = count++;
     for (uint i = 0u; i < uint(HEALTH_COUNT); ++i)
         control.health[i] = count++;

@@ -72,24 +72,38 @@ TEST_F(Tables, BatchesAreTheSameOnBothSides) {
     Kernel kernel("batch", batch_spirv, 1, count);
     for (const std::uint32_t first : {0u, (1u << 25) - count}) {
         const auto found = kernel.run<glm::uvec4>({.first = first}, count);
-        for (std::uint32_t i = 0; i < count; ++i)
-            ASSERT_EQ(found[i].x, shared::batch_first_sample(first + i)) << first + i;
+        constexpr std::uint32_t batches = shared::BATCH_LOG2_LIMIT;
+        constexpr std::uint32_t pieces = shared::PIECE_LOG2_LIMIT;
+        for (std::uint32_t i = first; i < first + count; ++i)
+            ASSERT_EQ(found[i - first],
+                      glm::uvec4(shared::batch_first_sample(i), shared::first_sample_of(i, pieces),
+                                 shared::number_of(i, batches), shared::number_of(i, pieces)))
+                << i;
     }
 }
 
 /// Four batches of one sample, two in each doubling, then 64 samples each; no gap, no overlap.
+/// Pieces likewise, up to their own length; each batch begins with one.
 TEST_F(Tables, EverySampleIsInExactlyOneBatch) {
-    ASSERT_EQ(shared::batch_first_sample(0), 0u);
-    std::uint32_t sample = 0;
+    for (const std::uint32_t limit : {shared::PIECE_LOG2_LIMIT, shared::BATCH_LOG2_LIMIT}) {
+        ASSERT_EQ(shared::first_sample_of(0, limit), 0u);
+        std::uint32_t first = 0;
+        for (std::uint32_t i = 0; i < 1u << 20; ++i) {
+            const std::uint32_t end = shared::first_sample_of(i + 1, limit);
+            ASSERT_EQ(shared::first_sample_of(i, limit), first);
+            std::uint32_t length = 1;
+            while (length < 1u << limit && first >= 4 * length)
+                length *= 2;
+            ASSERT_EQ(end - first, length) << "number " << i << " from sample " << first;
+            ASSERT_EQ(shared::number_of(first, limit), i);
+            ASSERT_EQ(shared::number_of(end - 1, limit), i);
+            first = end;
+        }
+    }
     for (std::uint32_t batch = 0; batch < 1u << 20; ++batch) {
-        const std::uint32_t end = shared::batch_first_sample(batch + 1);
-        ASSERT_EQ(shared::batch_first_sample(batch), sample);
-        ASSERT_GT(end, sample);
-        std::uint32_t length = 1;
-        while (length < 64 && sample >= 4 * length)
-            length *= 2;
-        ASSERT_EQ(end - sample, length) << "batch " << batch << " from sample " << sample;
-        sample = end;
+        const std::uint32_t first = shared::batch_first_sample(batch);
+        const std::uint32_t piece = shared::number_of(first, shared::PIECE_LOG2_LIMIT);
+        ASSERT_EQ(shared::first_sample_of(piece, shared::PIECE_LOG2_LIMIT), first);
     }
 }
 
