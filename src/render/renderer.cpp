@@ -160,10 +160,7 @@ double Renderer::samples_begun(std::uint32_t batch_count) const {
 bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
     if (!keep_going) return true;
     const bool is_look = folded_batches_ == look_batch_;
-    if (is_look) {
-        measure_error();
-        look_batch_ = batches_.next_look(look_batch_);
-    }
+    if (is_look) measure_error();
     const Progress progress{.samples = samples(),
                             .end_samples = batches_.samples_before(batches_.end()),
                             .begun = samples_begun(batch_count),
@@ -172,7 +169,10 @@ bool Renderer::ask(std::uint32_t batch_count, const KeepGoing& keep_going) {
                             .is_look = is_look,
                             .batches = folded_batches_ - batches_.first(),
                             .has_heavy_tail = stats::is_heavy_tail(tail_share())};
-    return keep_going(progress) || samples() == 0;
+    const bool goes_on = keep_going(progress) || samples() == 0;
+    // Who stops at a look gets what was looked at, though more may be complete.
+    if (is_look && goes_on) look_batch_ = batches_.next_look(look_batch_);
+    return goes_on;
 }
 
 /// Runs rounds until every batch of the epoch is in the film. False if told to stop before.
