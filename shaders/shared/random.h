@@ -30,9 +30,9 @@
 // voxel on each axis.
 //
 // Flight i of a shadow ray through such media, counted over the whole ray, uses block BLOCK_SHADOW
-// + i of the event that cast it: 0: optical distance, 1: corner. A flight that leaves its medium
-// without a collision counts, too: what it has told of its optical distance must not decide about
-// the next.
+// + i of the event that cast it: 0: optical distance, 1: corner, 2: roulette. A flight that leaves
+// its medium without a collision counts, too: what it has told of its optical distance must not
+// decide about the next.
 #ifndef TYNDALL_RANDOM_H
 #define TYNDALL_RANDOM_H
 
@@ -45,6 +45,9 @@ TYNDALL_SHARED_BEGIN
 // is found bit by bit on the way, and little of it so late.
 TYNDALL_CONSTANT float ROULETTE_SCALE_IN_ENVIRONMENT = 8.0f;
 TYNDALL_CONSTANT float ROULETTE_SCALE = 2.0f;
+/// Transmittance of a medium below which ratio tracking goes on for some of the shadow rays alone,
+/// with this: what is left is little light, and most of the way.
+TYNDALL_CONSTANT float SHADOW_ROULETTE = 0.1f;
 
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;

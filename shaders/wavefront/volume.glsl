@@ -249,9 +249,10 @@ Tap tap_field(Medium medium, Field f, float t, float u) {
     return tap_grid(medium, f.grid, f.bricks, choose_corner(point, u));
 }
 
-/// Transmittance of the line up to `t_surface` by ratio tracking; `step` counts its random blocks
-/// (random.h), `worst_ratio` becomes the largest ratio of extinction to majorant. What takes more
-/// than STEPS_MAX steps in one dispatch counts as ended by the limit of events, and is dark.
+/// Transmittance of the line up to `t_surface` by ratio tracking, with roulette; `step` counts its
+/// random blocks (random.h), `worst_ratio` becomes the largest ratio of extinction to majorant.
+/// What takes more than STEPS_MAX steps in one dispatch counts as ended by the limit of events, and
+/// is dark.
 vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_surface, Path p,
                          inout uint step, inout float worst_ratio) {
     float t, bound;
@@ -268,6 +269,10 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
             const vec3 ratio = (tap.sigma_a + tap.sigma_s) / bound;
             worst_ratio = max(worst_ratio, max(ratio.x, max(ratio.y, ratio.z)));
             result *= max(1.0 - ratio, 0.0); // rounding: beyond 1
+            const float most = max(result.x, max(result.y, result.z));
+            if (most < SHADOW_ROULETTE)
+                result *=
+                    unit_float(words.z) * SHADOW_ROULETTE < most ? SHADOW_ROULETTE / most : 0.0;
             tau = 0.0;
             ++steps_walked;
         }

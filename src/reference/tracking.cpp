@@ -3,6 +3,7 @@
 #include "reference/medium.h"
 #include "scene/blackbody.h"
 #include "shared/health.h"
+#include "shared/random.h"
 
 #include <algorithm>
 
@@ -178,6 +179,12 @@ std::optional<TentativeCollision> Flight::next(double tau, double u) {
             return flight.collision(majorant, u);
         },
         flight_);
+}
+
+Rgb play_shadow_roulette(const Rgb& transmittance, double u) {
+    const double most = largest(transmittance), limit = shared::SHADOW_ROULETTE;
+    if (most >= limit) return transmittance;
+    return u * limit < most ? transmittance * (limit / most) : Rgb(0);
 }
 
 } // namespace tyndall::reference

@@ -82,19 +82,23 @@ class Flight {
     std::variant<GridFlight, AtmosphereFlight> flight_;
 };
 
-/// Along the whole line, by ratio tracking. draw() gives (tau, u) for each flight, the last one
-/// that leaves the medium included; see() is told of the extinction over its majorant at each
+/// What roulette makes of a transmittance, by a uniform number: its expectation is the same.
+Rgb play_shadow_roulette(const Rgb& transmittance, double u);
+
+/// Along the whole line, by ratio tracking. draw() gives (tau, u, chance) for each flight, the last
+/// one that leaves the medium included; see() is told of the extinction over its majorant at each
 /// collision.
 template<class Draw, class See>
 Rgb track_transmittance(const MediumLine& line, double t_end, Draw&& draw, See&& see) {
     Flight flight(line, t_end);
     Rgb result(1);
     while (result != Rgb(0)) {
-        const auto [tau, u] = draw();
+        const auto [tau, u, chance] = draw();
         const std::optional<TentativeCollision> at = flight.next(tau, u);
         if (!at) break;
         see(at->absorbed + at->scattered);
         result *= glm::max(1.0 - (at->absorbed + at->scattered), 0.0); // rounding: beyond 1
+        result = play_shadow_roulette(result, chance);
     }
     return result;
 }

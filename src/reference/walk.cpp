@@ -96,7 +96,7 @@ Rgb PathTracer::visibility(Start start, const LightSample& light, const RandomPa
     std::uint32_t step = 0;
     const auto draw = [&] {
         const glm::uvec4 words = random.words(event, shared::BLOCK_SHADOW + step++);
-        return std::pair(flight_optical_depth(words.x), unit(words.y));
+        return std::tuple(flight_optical_depth(words.x), unit(words.y), unit(words.z));
     };
     const auto note = [&](const Rgb& extinction) { report.note_majorant(extinction); };
     Rgb result(1);
