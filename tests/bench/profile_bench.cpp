@@ -12,7 +12,7 @@ constexpr std::array<const char*, 5> kScenes{"homogeneous-cube", "chromatic-ball
                                              "smoke-grid", "vdb-smoke"};
 
 void tell_stages(benchmark::State& state, const Renderer& renderer, double samples) {
-    const double slots = renderer.wavefront().tuning().slots;
+    const double slots = double(renderer.stage_times().front().paths); // over all rounds
     double all = 0;
     for (const StageTime& stage : renderer.stage_times())
         all += stage.seconds;
@@ -20,7 +20,7 @@ void tell_stages(benchmark::State& state, const Renderer& renderer, double sampl
         state.counters[stage.name + ".percent"] = 100 * stage.seconds / all;
         if (stage.paths == 0) continue;
         const double paths = double(stage.paths);
-        state.counters[stage.name + ".occupancy"] = paths / (double(stage.dispatches) * slots);
+        state.counters[stage.name + ".occupancy"] = paths / slots;
         state.counters[stage.name + ".per_sample"] = paths / samples;
         state.counters[stage.name + ".ns_per_path"] = stage.seconds / paths * 1e9;
     }
