@@ -48,7 +48,7 @@ TYNDALL_CONSTANT uint LEAF = 0x80000000u;
 TYNDALL_CONSTANT uint LEAF_COUNT_SHIFT = 24u;
 TYNDALL_CONSTANT uint LEAF_COUNT_MAX = 128u;
 TYNDALL_CONSTANT uint LEAF_FIRST_MASK = 0x00FFFFFFu;
-TYNDALL_CONSTANT uint BVH_DEPTH_MAX = 32u; // of one level; instances add a second level
+TYNDALL_CONSTANT uint BVH_DEPTH_MAX = 31u; // of one level; instances add a second level
 
 /// The camera as affine maps of the film point (x, y), in pixels, y down.
 /// perspective:  direction = direction_0 + x direction_x + y direction_y (camera z of 1); origin_0
@@ -176,18 +176,23 @@ struct InstanceRecord {
 };
 TYNDALL_CONSTANT uint INSTANCE_TEXELS = 7u;
 
-/// Inner node of a binary hierarchy: boxes and words of both children.
+/// Inner node of a binary hierarchy: words and boxes of both children. Along each axis, a box goes
+/// from origin + lower / 256 * width to origin + upper / 256 * width. The lowest 9 bits of the word
+/// of an origin are the exponent and the first bit of the mantissa of a width, and part of the
+/// origin no less.
 struct NodeRecord {
-    vec3 lower0;
     uint child0;
-    vec3 upper0;
     uint child1;
-    vec3 lower1;
-    float pad0;
-    vec3 upper1;
-    float pad1;
+    uint origin_x; ///< Bits of a float.
+    uint origin_y;
+    uint origin_z;
+    uint box_x; ///< Four bytes, lowest first: lower and upper of child 0, then of child 1.
+    uint box_y;
+    uint box_z;
 };
-TYNDALL_CONSTANT uint NODE_TEXELS = 4u;
+TYNDALL_CONSTANT uint NODE_TEXELS = 2u;
+TYNDALL_CONSTANT uint NODE_WIDTH_SHIFT = 22u; // from the word of an origin to a width
+TYNDALL_CONSTANT uint NODE_WIDTH_MASK = 0x7FC00000u;
 
 /// A light that light sampling chooses.
 struct LightRecord {

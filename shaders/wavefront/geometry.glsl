@@ -2,8 +2,7 @@
 #ifndef TYNDALL_GEOMETRY_GLSL
 #define TYNDALL_GEOMETRY_GLSL
 
-#include "lib/intersect.glsl"
-#include "wavefront/scene.glsl"
+#include "wavefront/hierarchy.glsl"
 
 struct Hit {
     float t; ///< In units of the direction; INFINITY if nothing was hit.
@@ -21,58 +20,11 @@ struct SurfacePoint {
     uint medium_shift; ///< Added to the media of the shape (InstanceRecord).
 };
 
-// Three hierarchies, each walked by a loop of its own. A CPU driver executes all that stands in a
-// loop for every lane, taken or not, and stores to an array under a condition lane by lane: so a
-// walk is straight-line code, a few steps down and then one primitive, and leaves are used up by
-// counting in their words.
-//
-// Nodes name both children with their boxes; the nearer one is next, the other waits on the stack.
-
-// Not a struct that functions pass on: drivers would copy it each time.
-uint stack_nodes[2u * BVH_DEPTH_MAX + 1u]; // of both levels, and one that no one reads
-int stack_size = 0;
-
-bool is_leaf(uint node) {
-    return (node & LEAF) != 0u && node != NONE;
-}
-
-/// `node` itself, or if `done` what waits on the stack above `base`; NONE if nothing does.
-uint pop_if(bool done, uint node, int base) {
-    if ((primitives & PRIMITIVE_TREES) == 0u) return done ? NONE : node;
-    const bool is_empty = stack_size == base;
-    const uint top = stack_nodes[max(stack_size, 1) - 1];
-    stack_size -= done && !is_empty ? 1 : 0;
-    return !done ? node : is_empty ? NONE : top;
-}
-
-/// One step down from an inner node, to the nearer child that the ray may hit, or else to what
-/// waits on the stack. Leaves and NONE stay.
-uint step_down(Ray ray, float t_max, uint node, int base) {
-    const bool is_inner = (node & LEAF) == 0u;
-    const uint texel = push.nodes + (is_inner ? node : 0u) * NODE_TEXELS;
-    const uvec4 a = fetch_scene(texel), b = fetch_scene(texel + 1u);
-    const uvec4 c = fetch_scene(texel + 2u), d = fetch_scene(texel + 3u);
-    float near0, near1;
-    const bool hit0 = intersect_box(ray, floats(a), floats(b), t_max, near0);
-    const bool hit1 = intersect_box(ray, floats(c), floats(d), t_max, near1);
-    const bool second = hit1 && (!hit0 || near1 < near0);
-    stack_nodes[stack_size] = second ? a.w : b.w; // counts if both are hit
-    stack_size += is_inner && hit0 && hit1 ? 1 : 0;
-    return pop_if(is_inner && !hit0 && !hit1, is_inner ? second ? b.w : a.w : node, base);
-}
-
-/// Two steps: the balance with one primitive that is cheapest in meshes.
-uint descend(Ray ray, float t_max, uint node, int base) {
-    if ((primitives & PRIMITIVE_TREES) == 0u) return node;
-    return step_down(ray, t_max, step_down(ray, t_max, node, base), base);
-}
-
-/// What to walk after the first primitive of a leaf: the rest of it, or what waits on the stack;
-/// nothing more if `done`. Whatever is no leaf stays.
-uint after_primitive(uint node, bool done, int base) {
-    const bool is_last = (node & ~LEAF) >> LEAF_COUNT_SHIFT == 0u;
-    const uint rest = is_leaf(node) && !is_last ? node - (1u << LEAF_COUNT_SHIFT) + 1u : node;
-    return done ? NONE : pop_if(is_leaf(node) && is_last, rest, base);
+/// Three steps: the balance with one primitive that is cheapest in meshes.
+void descend(Ray ray, float t_max, inout Walk w) {
+    if ((primitives & PRIMITIVE_TREES) == 0u) return;
+    for (int i = 0; i < 3; ++i) // (a loop: some compilers take long as it is)
+        step_down(ray, t_max, w);
 }
 
 /// Hits of this primitive that do not count: those beyond a distance.
@@ -96,22 +48,22 @@ void take_hit(bool is_hit, float t, uint primitive, uint instance, inout Hit hit
 }
 
 void walk_triangles(Ray ray, uint root, uint instance, bool any, Skip skip, inout Hit hit) {
-    const int base = stack_size;
-    uint node = root;
+    Walk w = start_walk(root);
+    const uint table = push.primitives;
     do {
-        node = descend(ray, hit.t, node, base);
-        const uint i = is_leaf(node) ? node & LEAF_FIRST_MASK : 0u;
-        const uint texel = push.primitives + i * PRIMITIVE_TEXELS;
+        descend(ray, hit.t, w);
+        const bool is_primitive = w.leaf != NONE;
+        const uint i = is_primitive ? w.leaf & LEAF_FIRST_MASK : 0u;
+        const uint texel = table + i * PRIMITIVE_TEXELS;
         const vec4 plane = uintBitsToFloat(fetch_scene(texel + 3u));
         float t;
         const bool is_hit =
             intersect_triangle(ray, floats(fetch_scene(texel)), floats(fetch_scene(texel + 1u)),
                                floats(fetch_scene(texel + 2u)), plane.xyz, plane.w, hit.t, t) &&
-            is_leaf(node) && !is_skipped(skip, i, instance, t);
+            is_primitive && !is_skipped(skip, i, instance, t);
         take_hit(is_hit, t, i, instance, hit);
-        node = after_primitive(node, any && is_hit, base);
-    } while (node != NONE);
-    stack_size = base;
+        leave_primitive(any && is_hit, w);
+    } while (!is_over(w));
 }
 
 bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t) {
@@ -130,11 +82,11 @@ bool intersect_quadric(Ray ray, uint kind, uint index, float t_max, out float t)
 
 /// Patches, quadrics and boxes.
 void walk_others(Ray ray, uint root, uint instance, bool any, Skip skip, inout Hit hit) {
-    const int base = stack_size;
-    uint node = root;
+    Walk w = start_walk(root);
     do {
-        node = descend(ray, hit.t, node, base);
-        const uint i = is_leaf(node) ? node & LEAF_FIRST_MASK : 0u;
+        descend(ray, hit.t, w);
+        const bool is_primitive = w.leaf != NONE;
+        const uint i = is_primitive ? w.leaf & LEAF_FIRST_MASK : 0u;
         const PrimitiveRecord p = load_primitive(i);
         const uint kind = p.kind_and_shape >> KIND_SHIFT;
         float t = INFINITY;
@@ -146,11 +98,10 @@ void walk_others(Ray ray, uint root, uint instance, bool any, Skip skip, inout H
             is_hit = intersect_quadric(ray, kind, p.extra, hit.t, t);
         if ((primitives & PRIMITIVE_BOXES) != 0u && kind == KIND_BOX)
             is_hit = intersect_box_surface(ray, p.a, p.b, hit.t, t);
-        is_hit = is_hit && is_leaf(node) && !is_skipped(skip, i, instance, t);
+        is_hit = is_hit && is_primitive && !is_skipped(skip, i, instance, t);
         take_hit(is_hit, t, i, instance, hit);
-        node = after_primitive(node, any && is_hit, base);
-    } while (node != NONE);
-    stack_size = base;
+        leave_primitive(any && is_hit, w);
+    } while (!is_over(w));
 }
 
 void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance, bool any,
@@ -166,30 +117,29 @@ void walk_primitives(Ray ray, uint triangle_root, uint other_root, uint instance
 /// What the world holds itself, then the instances that the ray may hit. Each is alone in its leaf;
 /// its hierarchies are walked in its own space. (One call for both: drivers inline it.)
 void walk_instances(Ray ray, bool any, Skip skip, inout Hit hit) {
-    const int base = stack_size;
-    uint node = push.instance_root, instance = NONE;
+    Walk w = start_walk(push.instance_root);
+    uint instance = NONE;
     uvec2 roots = uvec2(push.triangle_root, push.other_root);
     Ray inner = ray;
     bool goes_on;
     do {
         walk_primitives(inner, roots.x, roots.y, instance, any, skip, hit);
-        if (any && hit.primitive != NONE) node = NONE;
+        if (any && hit.primitive != NONE) leave_primitive(true, w);
         do { // all the way: what follows is costly
-            node = descend(ray, hit.t, node, base);
-        } while ((node & LEAF) == 0u);
-        goes_on = node != NONE;
+            if ((primitives & PRIMITIVE_TREES) != 0u) step_down(ray, hit.t, w);
+        } while (w.leaf == NONE && w.node != NONE);
+        goes_on = w.leaf != NONE;
         if (goes_on) {
-            const uint texel = push.primitives + (node & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
+            const uint texel = push.primitives + (w.leaf & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
             instance = fetch_scene(texel + 2u).w;
             const uint record = push.instances + instance * INSTANCE_TEXELS;
             const AffineRecord object_from_world = load_affine(record);
             roots = fetch_scene(record + 6u).xy;
             inner = make_ray(transform_point(object_from_world, ray.origin),
                              transform_vector(object_from_world, ray.direction));
-            node = after_primitive(node, false, base);
+            leave_primitive(false, w);
         }
     } while (goes_on);
-    stack_size = base;
 }
 
 /// The nearest hit within (0, t_max), or with `any` some hit.

@@ -1,6 +1,7 @@
 #include "render/bvh.h"
 
 #include "core/error.h"
+#include "render/bvh_node.h"
 
 #include <cmath>
 #include <embree3/rtcore.h>
@@ -52,8 +53,8 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return leaf;
 }
 
-/// Flattens the subtree, parents first; returns its child word. The device's stack holds
-/// BVH_DEPTH_MAX words.
+/// Flattens the subtree, parents first; returns its child word. The device's trail holds
+/// BVH_DEPTH_MAX bits (shaders/wavefront/hierarchy.glsl).
 std::uint32_t flatten(const Node& node, std::uint32_t depth, Bvh& bvh) {
     if (depth > BVH_DEPTH_MAX)
         throw Error(ExitStatus::failed,
@@ -68,12 +69,7 @@ std::uint32_t flatten(const Node& node, std::uint32_t depth, Bvh& bvh) {
     bvh.nodes.emplace_back();
     const std::uint32_t child0 = flatten(*node.children[0], depth + 1, bvh);
     const std::uint32_t child1 = flatten(*node.children[1], depth + 1, bvh);
-    bvh.nodes[index] = {.lower0 = node.bounds[0].lower,
-                        .child0 = child0,
-                        .upper0 = node.bounds[0].upper,
-                        .child1 = child1,
-                        .lower1 = node.bounds[1].lower,
-                        .upper1 = node.bounds[1].upper};
+    bvh.nodes[index] = pack_node(node.bounds[0], child0, node.bounds[1], child1);
     return index;
 }
 

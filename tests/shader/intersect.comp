@@ -72,9 +72,14 @@ vec4 one_of(uint i, uint stride) {
     float near = 0.0, far = 0.0;
     bool hit = false;
     vec2 uv = vec2(0);
-    if (wanted() == 1u) { // box a .. b, up to a.w
+    if (wanted() == 1u) { // box a .. b, up to a.w; it is child b.w of a node
+        vec2 t;
+        const bvec2 hits =
+            intersect_node(make_ray(o, d), fetch_scene(at + 4u), fetch_scene(at + 5u), a.w, t);
+        near = b.w != 0.0 ? t.y : t.x;
         hit = variant() != 0u ? textbook_box(o, d, a.xyz, b.xyz, a.w, near)
-                              : intersect_box(make_ray(o, d), a.xyz, b.xyz, a.w, near);
+              : b.w != 0.0    ? hits.y
+                              : hits.x;
     } else if (wanted() == 2u) { // sphere of radius a.x
         hit = variant() != 0u ? textbook_sphere(o, d, a.x, near, far)
                               : intersect_sphere(o, d, a.x, near, far);
@@ -104,5 +109,5 @@ void main() {
     if (wanted() == 0u)
         emit(i, mesh(i));
     else
-        emit(i, one_of(i, wanted() == 5u ? 6u : 4u));
+        emit(i, one_of(i, wanted() == 1u || wanted() >= 5u ? 6u : 4u));
 }

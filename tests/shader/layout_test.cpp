@@ -1,5 +1,6 @@
 /// The device finds every field of every record where the host has put it.
 
+#include "render/bvh_node.h"
 #include "shader/kernel.h"
 #include "spirv/records.h"
 
@@ -202,14 +203,8 @@ TEST_F(Layout, EveryFieldOfTheControlBlockArrives) {
 /// One step down a hierarchy reads every field of its node.
 TEST_F(Layout, NodesAreReadWholly) {
     Kernel kernel = make_kernel();
-    const NodeRecord node{.lower0 = {0, 0, 10},
-                          .child0 = LEAF | 7,
-                          .upper0 = {2, 1, 11},
-                          .child1 = LEAF | 9,
-                          .lower1 = {1, 0, 4},
-                          .pad0 = 0,
-                          .upper1 = {3, 1, 5},
-                          .pad1 = 0};
+    const NodeRecord node =
+        pack_node({{0, 0, 10}, {2, 1, 11}}, LEAF | 7, {{1, 0, 4}, {3, 1, 5}}, LEAF | 9);
     std::vector<glm::vec4> texels(2 * NODE_TEXELS);
     std::memcpy(&texels[NODE_TEXELS], &node, sizeof(node));
     kernel.push.nodes = 0;

@@ -131,8 +131,9 @@ void fill_control() {
 /// From node 1, with a ray along +z from the point at push.media + i.
 void walk_node(uint i) {
     const Ray ray = make_ray(input_texel(push.media + i).xyz, vec3(0, 0, 1));
-    const uint leaf = step_down(ray, INFINITY, 1u, 0);
-    emit(i, uvec4(leaf, pop_if(true, leaf, 0), 0u, 0u));
+    Walk w = start_walk(1u);
+    step_down(ray, INFINITY, w);
+    emit(i, uvec4(w.leaf, w.node, 0u, 0u));
 }
 
 void main() {
