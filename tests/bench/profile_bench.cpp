@@ -1,6 +1,9 @@
 /// Where the time of a render goes: for each stage its share of the device's time, the paths that
-/// it is given each time as a share of the slots, and what it takes for one.
+/// it is given each time as a share of the slots, what it takes for one, and what it moves of its
+/// state.
 #include "bench/bench.h"
+#include "bench/state_traffic.h"
+#include "gpu/specialize.h"
 
 #include <array>
 #include <benchmark/benchmark.h>
@@ -26,6 +29,16 @@ void tell_stages(benchmark::State& state, const Renderer& renderer, double sampl
     }
 }
 
+void tell_traffic(benchmark::State& state, const Wavefront& wavefront) {
+    for (const StageKind* kind : wavefront.stages()) {
+        if (kind->input != StageInput::slots && kind->input != StageInput::queue) continue;
+        const StateTraffic traffic = state_traffic(
+            gpu::specialize(kind->spirv, kind->features(wavefront.features()), kind->name));
+        state.counters[std::string(kind->name) + ".bytes_read"] = traffic.read;
+        state.counters[std::string(kind->name) + ".bytes_written"] = traffic.written;
+    }
+}
+
 void profile(benchmark::State& state) {
     constexpr int size = 256;
     constexpr std::uint32_t samples = 64;
@@ -35,6 +48,7 @@ void profile(benchmark::State& state) {
     for (auto _ : state)
         renderer.render(0, samples);
     tell_stages(state, renderer, double(size) * size * samples);
+    tell_traffic(state, renderer.wavefront());
     state.counters["state_bytes_per_path"] = 16.0 * path_texels(renderer.wavefront().features());
     state.SetLabel(scene);
 }

@@ -1,33 +1,26 @@
-/// How CPU time grows with what a scene holds: lights, triangles, voxels.
+/// How CPU time grows with what a scene holds: lights, triangles, voxels; with a plot.
 #include "bench/bench.h"
 #include "bench/made_scenes.h"
 #include "scene/cloud.h"
+#include "study/gnuplot.h"
 #include "volume/majorants.h"
 
 #include <algorithm>
+#include <array>
 #include <benchmark/benchmark.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace tyndall::bench {
 namespace {
 
 constexpr int kPixels = 96;
-
-/// CPU time of the second scene over that of the first, of the best of runs in turns.
-void tell_growth(benchmark::State& state, const Scene& few, const Scene& many) {
-    constexpr std::uint32_t samples = 16;
-    Renderer a(context(), few), b(context(), many);
-    a.render(0, 1);
-    b.render(0, 1);
-    double of_few = std::numeric_limits<double>::max(), of_many = of_few;
-    for (auto _ : state) {
-        of_few = std::min(of_few, cpu_of([&] { a.render(0, samples); }));
-        of_many = std::min(of_many, cpu_of([&] { b.render(0, samples); }));
-    }
-    state.counters["times_as_long"] = of_many / of_few;
-    state.counters["cpu_seconds_per_Mpath"] = of_few / (double(kPixels) * kPixels * samples) * 1e6;
-}
 
 /// The lamp of bench/plain cut into so many in a circle, as bright together.
 Scene with_lights(int count) {
@@ -74,18 +67,76 @@ Scene with_voxels(int edge) {
     return scene;
 }
 
-void scaling_lights(benchmark::State& state) {
-    tell_growth(state, with_lights(64), with_lights(128));
+/// Seconds of CPU time per million paths, the least of several renders.
+double cost_of(const Scene& scene) {
+    constexpr std::uint32_t samples = 16;
+    Renderer renderer(context(), scene);
+    renderer.render(0, 1);
+    double best = std::numeric_limits<double>::max();
+    for (int i = 0; i < 5; ++i)
+        best = std::min(best, cpu_of([&] { renderer.render(0, samples); }));
+    return best / (double(kPixels) * kPixels * samples) * 1e6;
 }
-void scaling_triangles(benchmark::State& state) {
-    tell_growth(state, with_triangles(187), with_triangles(264));
+
+/// What is counted, a scene with about so many, and how many.
+struct Sweep {
+    const char* what;
+    Scene (*scene)(int);
+    std::vector<int> counts;
+    int few, many; ///< Of which the growth is told: twice as many, or ten times the resolution.
+};
+Scene with_about_triangles(int count) {
+    return with_triangles(int(std::lround(std::sqrt(count / 2.0))));
 }
-void scaling_voxels(benchmark::State& state) {
-    tell_growth(state, with_voxels(20), with_voxels(200));
+Scene with_about_voxels(int count) {
+    return with_voxels(int(std::lround(std::cbrt(count))));
 }
-BENCHMARK(scaling_lights)->Iterations(5)->Unit(benchmark::kMillisecond);
-BENCHMARK(scaling_triangles)->Iterations(5)->Unit(benchmark::kMillisecond);
-BENCHMARK(scaling_voxels)->Iterations(5)->Unit(benchmark::kMillisecond);
+const std::array<Sweep, 3> kSweeps{{
+    {"lights", with_lights, {1, 4, 16, 64, 128, 256}, 64, 128},
+    {"triangles", with_about_triangles, {1000, 4000, 16000, 70000, 140000, 280000}, 70000, 140000},
+    {"voxels", with_about_voxels, {1000, 8000, 64000, 1000000, 8000000}, 8000, 8000000},
+}};
+
+/// What the sweeps so far took: CPU seconds per million paths by count.
+std::array<std::map<int, double>, kSweeps.size()> costs;
+
+/// Draws them, each relative to its first scene, into scaling.svg in the working directory.
+void draw_costs() {
+    std::string script = "set terminal svg size 720,420 background 'white'\n"
+                         "set logscale xy\nset grid\nset key left top\nset yrange [0.5:4]\nset "
+                         "ytics (0.5, 1, 2, 4)\n"
+                         "set xlabel 'how many the scene has'\n"
+                         "set ylabel 'CPU time of a path, relative to the fewest'\n";
+    std::string plots;
+    for (std::size_t i = 0; i < kSweeps.size(); ++i) {
+        script += fmt::format("$d{} << END\n", i);
+        for (const auto& [count, cost] : costs[i])
+            script += fmt::format("{} {:.6g}\n", count, cost / costs[i].begin()->second);
+        script += "END\n";
+        plots += fmt::format("{}$d{} with linespoints lw 2 title '{}'", i == 0 ? "plot " : ", ", i,
+                             kSweeps[i].what);
+    }
+    std::ofstream("scaling.svg") << study::run_gnuplot(script + plots + "\n");
+}
+
+/// All scenes of a sweep. The last sweep draws.
+void scaling(benchmark::State& state) {
+    const std::size_t index = std::size_t(state.range(0));
+    const Sweep& sweep = kSweeps.at(index);
+    for (auto _ : state)
+        for (const int count : sweep.counts) {
+            costs.at(index)[count] = cost_of(sweep.scene(count));
+            state.counters[std::to_string(count)] = costs.at(index)[count];
+        }
+    state.counters["times_as_long"] = costs.at(index)[sweep.many] / costs.at(index)[sweep.few];
+    state.SetLabel(fmt::format("{}: CPU seconds per Mpath by how many; {} to {} takes", sweep.what,
+                               sweep.few, sweep.many));
+    if (index + 1 == kSweeps.size()) draw_costs();
+}
+BENCHMARK(scaling)
+    ->DenseRange(0, int(kSweeps.size()) - 1)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace tyndall::bench
