@@ -97,7 +97,7 @@ bool is_phase(uint kind, uint wanted) {
 /// Density of a phase function in closed form; 0 for a delta.
 float evaluate_closed_phase(uint kind, float parameter, vec3 from, vec3 to) {
     if (is_phase(kind, PHASE_RAYLEIGH)) return evaluate_rayleigh(from, to);
-    if (is_delta(parameter)) return 0.0;
+    if (has_delta_phases != 0u && is_delta(parameter)) return 0.0;
     if (is_phase(kind, PHASE_SCHLICK)) return evaluate_schlick(parameter, from, to);
     return evaluate_hg(parameter, from, to);
 }
@@ -111,6 +111,7 @@ vec2 sample_closed_phase(uint kind, float parameter, float xi) {
 
 /// Whether a function of this kind is a delta.
 bool is_delta_phase(uint kind, float parameter) {
+    if (has_delta_phases == 0u) return false;
     const bool has_others = (phases & (PHASE_BIT_RAYLEIGH | PHASE_BIT_TABLE)) != 0u;
     const bool has_parameter = (phases & (PHASE_BIT_HENYEY_GREENSTEIN | PHASE_BIT_SCHLICK)) != 0u;
     return has_parameter && (!has_others || kind < PHASE_RAYLEIGH) && is_delta(parameter);

@@ -22,6 +22,7 @@ TYNDALL_CONSTANT int HEALTH_EVENT_LIMIT = 5; // ended by the limit of events, no
 TYNDALL_CONSTANT int HEALTH_WEIGHT =
     6; // throughput beyond what exact sampling gives: see WEIGHT_MAX
 TYNDALL_CONSTANT int HEALTH_COUNT = 7;
+TYNDALL_CONSTANT int HEALTH_DROPPED = 7; // while a path is still to be told by the kinds above
 
 // Bounds that rounding does not reach.
 TYNDALL_CONSTANT float MAJORANT_RATIO_MAX = 1.0001f; // extinction over majorant

@@ -53,14 +53,12 @@ uint queue_of_surface(uint primitive) {
 
 /// Counts a scattering event; false if the path has had its share, and ends.
 bool may_scatter(inout Path p) {
-    if (p.depth == max_depth) {
-        note_mishap(HEALTH_EVENT_LIMIT, max_depth < push.max_depth);
-        log_path(EVENT_DEPTH_LIMIT, p);
-        p.status = STATUS_ENDED;
-        return false;
-    }
-    ++p.depth;
-    return true;
+    const bool may = p.depth != max_depth;
+    note_mishap(HEALTH_EVENT_LIMIT, !may && max_depth < push.max_depth);
+    if (!may) log_path(EVENT_DEPTH_LIMIT, p);
+    p.status = may ? p.status : STATUS_ENDED;
+    p.depth += may ? 1u : 0u;
+    return may;
 }
 
 /// How much of the light inside the ball around all surfaces and lights is still to be found at a
@@ -82,14 +80,12 @@ void roulette(inout Path p, float reach, uint word) {
     const float w = max(p.throughput.x, max(p.throughput.y, p.throughput.z));
     // Without surfaces and voxels there is only spectral MIS, which never exceeds 3.
     if (geometry == GEOMETRY_BVH) note_mishap(HEALTH_WEIGHT, w * reach > WEIGHT_MAX);
-    const float chance = max(roulette_scale * w * reach, 0.25);
-    if (chance >= 1.0) return;
+    const float chance = clamp(roulette_scale * w * reach, 0.25, 1.0);
     if (unit_float(word) >= chance || w <= 0.0) {
         log_path(w <= 0.0 ? EVENT_ABSORBED : EVENT_ROULETTE, p);
         p.status = STATUS_ENDED;
-    } else {
-        p.throughput /= chance;
     }
+    p.throughput /= chance;
 }
 
 /// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is

@@ -31,7 +31,8 @@ void main() {
         else
             lose(p);
     }
-    if (p.status == STATUS_ENDED && !finish_sample(p, camera)) report_path(p, camera);
+    if (p.status == STATUS_ENDED) finish_sample(p, camera);
+    if (is_for_report(p)) report_path(p, camera);
     const bool takes_work = needs_work(p);
     if (takes_work) take_work(p);
     if (p.status == STATUS_ENDED) {

@@ -217,24 +217,32 @@ void lose(inout Path p) {
 }
 
 bool is_radiance(vec3 v) {
-    return min(min(v.x, v.y), v.z) >= 0.0 && v.x + v.y + v.z <= FLOAT_MAX; // false for NaN
+    const float least = is_grey != 0u ? v.x : min(min(v.x, v.y), v.z);
+    const float sum = is_grey != 0u ? v.x : v.x + v.y + v.z;
+    return least >= 0.0 && sum <= FLOAT_MAX; // false for NaN
 }
 
 /// Adds the ended path to the sum of its piece; as black if what it has is no radiance, or if it
-/// went nowhere. False if anything went wrong with it: then it is for report_path.
-bool finish_sample(inout Path p, CameraRecord camera) {
+/// went nowhere.
+void finish_sample(inout Path p, CameraRecord camera) {
     vec3 radiance = p.radiance * camera.exposure;
     const bool is_sound = is_radiance(radiance) && is_unit(p.direction);
-    if (!is_sound) radiance = vec3(0);
+    note_mishap(HEALTH_DROPPED, !is_sound);
+    radiance = is_sound ? radiance : vec3(0);
     const float most = max(max(radiance.x, radiance.y), radiance.z);
     if (has_clamp != 0u && most > camera.clamp) radiance *= camera.clamp / most;
     p.sum += vec4(p.weight * radiance, p.weight);
     ++p.path_sample;
-    return is_sound && mishaps == 0u;
 }
 
-/// Counts what went wrong with a path that finish_sample has ended.
+/// Whether anything went wrong with a path that finish_sample has ended.
+bool is_for_report(Path p) {
+    return p.status == STATUS_ENDED && mishaps != 0u;
+}
+
+/// Counts what went wrong with such a path.
 void report_path(Path p, CameraRecord camera) {
+    mishaps &= ~(1u << HEALTH_DROPPED);
     const vec3 radiance = p.radiance * camera.exposure;
     const bool is_finite = abs(radiance.x + radiance.y + radiance.z) <= FLOAT_MAX;
     note_mishap(HEALTH_NONFINITE, !is_finite);

@@ -47,6 +47,7 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
         p.event = 0u;
         begin_sample(p, camera, draw(p, BLOCK_PATH));
     }
+    if (has_emission == 0u && lights == 0u) p.radiance = vec3(0); // all of it comes at the end
     float near = 0.0, far = INFINITY;
     bool hits = has_media != 0u && p.medium != VACUUM;
     if (geometry != GEOMETRY_NONE) {
@@ -67,18 +68,25 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
     if (collides) {
         log_path(EVENT_COLLISION, p);
         const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
-        if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
+        const bool at_limit = p.depth == max_depth;
+        if (!is_absorbed && !at_limit) scatter(p, medium, words);
+        ++p.depth;
+        p.status = at_limit ? STATUS_ENDED : p.status;
         ++p.event;
     } else {
         escape(p, camera);
     }
 }
 
-/// In a grey scene: says so of what the loop carries, so that only one channel of it is computed.
-void keep_channels(inout Path p) {
+/// Says what a turn of the loop leaves as it was, or to be set anew, so that the loop need not
+/// carry it: a CPU driver does that by a masked store wherever a branch ends.
+void keep_what_is_carried(inout Path p) {
     p.throughput = colour(p.throughput);
     p.radiance = colour(p.radiance);
     p.sum.xyz = colour(p.sum.xyz);
+    if (is_chromatic == 0u) p.hero = 0u;
+    if (!paths_find_lights()) p.pdf = 0.0;
+    if (geometry != GEOMETRY_NONE) p.medium = region.medium;
 }
 
 /// A path to which something happened ends the work of its lane in this dispatch, so that it is
@@ -102,19 +110,19 @@ void main() {
     load_radiance(slot, p);
     load_sample(slot, p);
     load_piece_state(slot, p);
-    bool is_sound = true;
-    for (uint done = 0u; done < push.run_length && is_sound; done += chunk) {
+    for (uint done = 0u; done < push.run_length && !is_for_report(p); done += chunk) {
         if (needs_work(p)) take_work(p);
         if (p.status == STATUS_WAITING) break;
         for (uint i = 0u; i < chunk; ++i) {
-            if (p.status == STATUS_ENDED && (p.path_sample == p.piece_end || !is_sound)) break;
+            if (is_for_report(p) || (p.status == STATUS_ENDED && p.path_sample == p.piece_end))
+                break;
             advance(p, camera, medium);
-            keep_channels(p);
-            if (p.status == STATUS_ENDED) is_sound = finish_sample(p, camera);
+            keep_what_is_carried(p);
+            if (p.status == STATUS_ENDED) finish_sample(p, camera);
         }
     }
-    keep_channels(p);
-    if (!is_sound) report_path(p, camera);
+    keep_what_is_carried(p);
+    if (is_for_report(p)) report_path(p, camera);
     store_origin(slot, p);
     store_direction(slot, p);
     store_throughput(slot, p);

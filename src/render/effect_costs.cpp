@@ -33,7 +33,7 @@ void no_chromatic_media(Features& f) {
     f.has_chromatic_phases = 0;
 }
 void no_scattering(Features& f) {
-    f.has_scattering = f.phases = f.has_mixtures = 0;
+    f.has_scattering = f.phases = f.has_mixtures = f.has_delta_phases = 0;
     no_chromatic_media(f);
 }
 void no_grids(Features& f) {
@@ -78,6 +78,7 @@ const Entry kEntries[] = {
     {"emission of media", no_emission, {"black body", "emitting voxels"}},
     {"mixtures of phases", [](Features& f) { f.has_mixtures = 0; }},
     {"chromatic phases", [](Features& f) { f.has_chromatic_phases = 0; }},
+    {"delta phases", [](Features& f) { f.has_delta_phases = 0; }},
     {"spectral MIS", [](Features& f) { f.is_chromatic = f.has_dispersion = 0; }},
     {"grids", no_grids, {"brick tables", "grids", "majorants", "voxels"}},
     {"black body emission", [](Features& f) { f.has_temperature = 0; }, {"black body"}},

@@ -158,6 +158,7 @@ void Collector::collect_phases(const Medium& medium, const std::string& by) {
     }
     if (medium.phases.size() > 1) f.has_mixtures = 1, phases_by_ = by;
     if (is_chromatic(medium.phases)) f.has_chromatic_phases = 1;
+    if (has_delta(medium.phases)) f.has_delta_phases = 1;
 }
 
 void Collector::tell_phases() {
@@ -174,13 +175,14 @@ void Collector::tell_phases() {
     add_value("phase functions", value, phases_by_);
     add("mixtures of phases", f.has_mixtures, phases_by_);
     add("chromatic phases", f.has_chromatic_phases, phases_by_);
+    add("delta phases", f.has_delta_phases, phases_by_);
 }
 
 void Collector::collect_media() {
     shared::Features& f = effects_.features;
     f.densities = f.has_rgb_grids = f.has_temperature = 0;
     f.has_media = f.has_scattering = f.has_emission = f.is_analog = 0;
-    f.phases = f.has_mixtures = f.has_chromatic_phases = 0;
+    f.phases = f.has_mixtures = f.has_chromatic_phases = f.has_delta_phases = 0;
     f.is_chromatic =
         f.has_dispersion; // a path that is dispersed goes on in the channel of its hero
     std::string media_by, scattering_by, emission_by, analog_by, chromatic_by = dispersion_by_;

@@ -49,6 +49,16 @@ bool is_chromatic(const std::vector<PhaseFunction>& mixture) {
     });
 }
 
+bool has_delta(const std::vector<PhaseFunction>& mixture) {
+    return std::any_of(mixture.begin(), mixture.end(), [](const PhaseFunction& phase) {
+        using Kind = PhaseFunction::Kind;
+        const double parameter = phase.kind == Kind::schlick             ? phase.k
+                                 : phase.kind == Kind::henyey_greenstein ? phase.g
+                                                                         : 0;
+        return 1.0F - std::abs(static_cast<float>(parameter)) < 1e-6F;
+    });
+}
+
 std::uint32_t PhasePacker::append(const std::vector<glm::uvec4>& texels) {
     const std::uint32_t texel = append_(texels, "phase functions");
     if (texel > PHASE_TEXEL_MASK)

@@ -39,6 +39,9 @@ class PhasePacker {
 /// shared::PHASE_* of a kind.
 std::uint32_t phase_kind(PhaseFunction::Kind kind);
 
+/// Some phase function is a delta as far as float32 can tell (is_delta in lib/phase.glsl).
+bool has_delta(const std::vector<PhaseFunction>& mixture);
+
 /// Some phase function differs between channels.
 bool is_chromatic(const std::vector<PhaseFunction>& mixture);
 

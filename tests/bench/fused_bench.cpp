@@ -1,6 +1,7 @@
 /// What the wavefront costs, beside kernels that keep paths in registers from end to end.
 #include "bench/bench.h"
 #include "bench/fused_cube.h"
+#include "spirv/bare_region.h"
 #include "spirv/fused_paths.h"
 
 #include <algorithm>
@@ -15,16 +16,16 @@ constexpr int kSize = 256;
 
 /// CPU seconds of both in turns, the least of each, and their ratio.
 void run_in_turns(benchmark::State& state, std::uint32_t samples,
-                  const std::function<void()>& wavefront, const std::function<void()>& fused) {
-    double best_wavefront = std::numeric_limits<double>::max(), best_fused = best_wavefront;
+                  const std::function<void()>& wavefront, const std::function<void()>& bar) {
+    double best_wavefront = std::numeric_limits<double>::max(), best_bar = best_wavefront;
     for (auto _ : state) {
         best_wavefront = std::min(best_wavefront, cpu_of(wavefront));
-        best_fused = std::min(best_fused, cpu_of(fused));
+        best_bar = std::min(best_bar, cpu_of(bar));
     }
     const double paths = double(kSize) * kSize * samples;
     state.counters["wavefront_cpu_seconds_per_Mpath"] = best_wavefront / paths * 1e6;
-    state.counters["fused_cpu_seconds_per_Mpath"] = best_fused / paths * 1e6;
-    state.counters["ratio"] = best_fused / best_wavefront;
+    state.counters["bar_cpu_seconds_per_Mpath"] = best_bar / paths * 1e6;
+    state.counters["ratio"] = best_bar / best_wavefront;
 }
 
 /// Against a kernel written for homogeneous-cube and nothing else.
@@ -42,6 +43,23 @@ void fused_cube(benchmark::State& state) {
 }
 BENCHMARK(fused_cube)->Name("fused_ratio/homogeneous-cube")->Iterations(6);
 
+/// The whole program against a build of it that has nothing else in it (bare_region.comp).
+void bare_cube(benchmark::State& state) {
+    constexpr std::uint32_t samples = 128;
+    const Scene scene = read_bench_scene("device/pbrt/homogeneous-cube", kSize);
+    std::vector<StageKind> stages(stage_kinds().begin(), stage_kinds().end());
+    stages.front().spirv = bare_region_spirv; // walk_region
+    Renderer whole(context(), scene);
+    Renderer bare(context(), scene, compute_effects(scene), {}, stages);
+    whole.render(0, 8);
+    bare.render(0, 8);
+    run_in_turns(
+        state, samples, [&] { whole.render(0, samples); }, [&] { bare.render(0, samples); });
+    if (bare.read_film().pixels != whole.read_film().pixels)
+        state.SkipWithError("the images differ");
+}
+BENCHMARK(bare_cube)->Name("bare_ratio/homogeneous-cube")->Iterations(12);
+
 /// The stages of the wavefront in one kernel (fused_paths.comp), and what completes a round.
 std::vector<StageKind> fused_stages() {
     std::vector<StageKind> stages{
@@ -55,7 +73,7 @@ std::vector<StageKind> fused_stages() {
 /// Against all stages in one kernel.
 void fused_paths(benchmark::State& state, const std::string& name) {
     constexpr std::uint32_t samples = 64;
-    const Scene scene = read_bench_scene("device/pbrt/" + name, kSize);
+    const Scene scene = read_bench_scene(name, kSize);
     const std::vector<StageKind> stages = fused_stages();
     Renderer renderer(context(), scene);
     Renderer fused(context(), scene, compute_effects(scene), {.slots = 4096}, stages); // its best
@@ -66,10 +84,15 @@ void fused_paths(benchmark::State& state, const std::string& name) {
     if (fused.read_film().pixels != renderer.read_film().pixels)
         state.SkipWithError("the images differ");
 }
-BENCHMARK_CAPTURE(fused_paths, smoke_grid, "smoke-grid")
+BENCHMARK_CAPTURE(fused_paths, smoke_grid, "device/pbrt/smoke-grid")
     ->Name("fused_ratio/smoke-grid")
     ->Iterations(3);
-BENCHMARK_CAPTURE(fused_paths, fog_room, "fog-room")->Name("fused_ratio/fog-room")->Iterations(3);
+BENCHMARK_CAPTURE(fused_paths, fog_room, "device/pbrt/fog-room")
+    ->Name("fused_ratio/fog-room")
+    ->Iterations(3);
+BENCHMARK_CAPTURE(fused_paths, materials, "bench/materials")
+    ->Name("fused_ratio/materials")
+    ->Iterations(3);
 
 } // namespace
 } // namespace tyndall::bench

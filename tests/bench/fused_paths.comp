@@ -3,18 +3,26 @@
 #include "fused_slots.glsl"
 #include "fused_stages/cross_interface.glsl"
 #include "fused_stages/next_sample.glsl"
+#include "fused_stages/shade_conductor.glsl"
+#include "fused_stages/shade_dielectric.glsl"
 #include "fused_stages/shade_emitter.glsl"
+#include "fused_stages/shade_rough_conductor.glsl"
+#include "fused_stages/shade_rough_dielectric.glsl"
 #include "fused_stages/shade_surface.glsl"
 #include "fused_stages/shade_volume.glsl"
 #include "fused_stages/trace_segment.glsl"
 #include "fused_stages/trace_shadow.glsl"
 #include "fused_stages/track_medium.glsl"
 
-// The bar for the wavefront in scenes with a hierarchy, surfaces that are diffuse, and lights: its
-// own stages in one kernel, which keeps paths in registers. A turn of the loop does what a round of
-// the wavefront does, and the image is the same to the last bit.
+// The bar for the wavefront in scenes with a hierarchy: its own stages in one kernel, which keeps
+// paths in registers. A turn of the loop does what a round of the wavefront does, and the image is
+// the same to the last bit.
 //
 //   ray -> ray, batches
+
+bool is_met(uint queue) {
+    return (surface_queues >> queue & 1u) != 0u;
+}
 
 void main() {
     const uint slot = gl_GlobalInvocationID.x;
@@ -26,9 +34,13 @@ void main() {
         if (has_emitters != 0u) shade_emitter();
         if ((densities & DENSITY_BITS_TRACKED) != 0u) track_medium();
         if (has_scattering != 0u) shade_volume();
-        shade_surface();
-        if (has_interfaces != 0u) cross_interface();
-        trace_shadow();
+        if (is_met(QUEUE_SURFACE)) shade_surface();
+        if (is_met(QUEUE_DIELECTRIC)) shade_dielectric();
+        if (is_met(QUEUE_ROUGH_DIELECTRIC)) shade_rough_dielectric();
+        if (is_met(QUEUE_CONDUCTOR)) shade_conductor();
+        if (is_met(QUEUE_ROUGH_CONDUCTOR)) shade_rough_conductor();
+        if (is_met(QUEUE_INTERFACE)) cross_interface();
+        if (lights != 0u) trace_shadow();
         next_sample();
     }
     store_slot(slot);

@@ -107,6 +107,7 @@ const std::vector<Removal> kRemovals{
     {"emission of media", {"emission_weight", "blackbody"}},
     {"mixtures of phases", {}},
     {"chromatic phases", {}},
+    {"delta phases", {}},
     {"spectral MIS", {}},
     {"grids", {}},
     {"black body emission", {"blackbody"}},

@@ -88,8 +88,10 @@ class FullScene {
     std::vector<PhaseFunction> phases() const {
         const bool is_chromatic = has("chromatic phases") && has("spectral MIS");
         const PhaseFunction table = is_chromatic ? mie({3, 4, 5}, 1.4) : mie(4, 1.4);
+        const PhaseFunction straight = henyey_greenstein(has("delta phases") ? 1 : 0.9);
         if (!has("mixtures of phases")) return {table};
-        return {weighted(0.5, table), weighted(0.3, rayleigh()), weighted(0.2, schlick(0.6))};
+        return {weighted(0.5, table), weighted(0.2, rayleigh()), weighted(0.2, schlick(0.6)),
+                weighted(0.1, straight)};
     }
 
     void add_grid(Medium& medium, const glm::dvec3& center) const {

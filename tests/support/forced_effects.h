@@ -16,7 +16,7 @@ struct ForcedEffect {
 inline constexpr std::array<ForcedEffect, 12> kForcedEffects{{
     {"three channels", [](shared::Features& f) { f.is_grey = 0; }},
     {"emission of media", [](shared::Features& f) { f.has_emission = 1; }},
-    {"phase functions", [](shared::Features& f) { f.phases = 15; }},
+    {"phase functions", [](shared::Features& f) { f.phases = 15, f.has_delta_phases = 1; }},
     {"mixtures of phases", [](shared::Features& f) { f.phases = 15, f.has_mixtures = 1; }},
     {"environment", [](shared::Features& f) { f.has_environment = 1; }},
     {"shading normals", [](shared::Features& f) { f.has_shading_normals = 1; }},
