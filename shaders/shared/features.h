@@ -100,7 +100,8 @@ TYNDALL_SHARED_END
     X(38, texel_stores, 0) /* bit n: buffer n is too large for a storage binding to write to */    \
     X(39, sampler_kind, 0) /* SAMPLER_* */                                                         \
     X(40, zsobol_bits, 4)  /* Scene::zsobol_bits */                                                \
-    X(41, has_delta_phases, 1) /* some phase function is as good as a delta (lib/phase.glsl) */
+    X(41, has_delta_phases, 1) /* some phase function is as good as a delta (lib/phase.glsl) */    \
+    X(42, has_closed_media, 1) /* some medium has transmittance in closed form: not all tracked */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

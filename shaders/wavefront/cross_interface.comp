@@ -15,7 +15,7 @@ void main() {
     const Hit hit = Hit(uintBitsToFloat(texel.x), texel.y, texel.z);
     const SurfacePoint s = surface_point(p.origin, p.direction, hit);
     const ShapeRecord shape = load_shape(s.shape);
-    if (has_media != 0u && p.medium != VACUUM) {
+    if (has_closed_media != 0u && p.medium != VACUUM) {
         load_throughput(slot, p);
         load_radiance(slot, p);
         travel(p, load_medium(p.medium), hit.t, false);

@@ -26,7 +26,7 @@ bool is_absorbed(Path p, Medium medium) {
 /// Takes the path to the end of its segment at distance t: emission on the way, then throughput; a
 /// path that is absorbed ends. Tracking or marching has done so already.
 void travel(inout Path p, Medium medium, float t, bool collided) {
-    if (is_carried(medium)) return;
+    if (has_closed_media == 0u || is_carried(medium)) return;
     const float column = column_length(medium, p.origin, p.direction, t);
     if (has_emission != 0u && is_analog == 0u)
         contribute(p, segment_emission(medium, p.throughput, p.r, column));

@@ -29,16 +29,18 @@ void main() {
         // Two ifs: the outer is of constants alone, and goes with what is in it.
         if (has_media != 0u && (has_collisions || densities != 0u)) {
             if (p.medium != VACUUM) {
-                load_sample(slot, p);
                 const Medium medium = load_medium(p.medium);
-                const float column =
-                    flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
-                const float flight = distance_of_column(medium, p.origin, p.direction, column);
-                if (is_carried(medium)) {
+                if (has_closed_media == 0u || is_carried(medium)) {
                     queue = QUEUE_TRACK;
-                } else if (march == MARCH_NONE && flight < hit.t) {
-                    hit.t = flight;
-                    queue = QUEUE_VOLUME;
+                } else if (march == MARCH_NONE) {
+                    load_sample(slot, p);
+                    const float column =
+                        flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
+                    const float flight = distance_of_column(medium, p.origin, p.direction, column);
+                    if (flight < hit.t) {
+                        hit.t = flight;
+                        queue = QUEUE_VOLUME;
+                    }
                 }
             }
         }

@@ -309,7 +309,8 @@ float distance_of_column(Medium medium, vec3 origin, vec3 direction, float colum
 
 bool is_tracked(Medium medium) {
     return (densities & DENSITY_BITS_TRACKED) != 0u &&
-           (medium.density_kind == DENSITY_GRID || medium.density_kind == DENSITY_SPHERE);
+           (has_closed_media == 0u || medium.density_kind == DENSITY_GRID ||
+            medium.density_kind == DENSITY_SPHERE);
 }
 
 /// Whether a stage of its own takes paths through the medium: track_medium, or march_medium.

@@ -42,7 +42,7 @@ void no_grids(Features& f) {
     no_hot_grids(f);
 }
 void no_media(Features& f) {
-    f.has_media = 0;
+    f.has_media = f.has_closed_media = 0;
     f.densities = 0;
     no_scattering(f);
     no_grids(f);
@@ -80,6 +80,7 @@ const Entry kEntries[] = {
     {"chromatic phases", [](Features& f) { f.has_chromatic_phases = 0; }},
     {"delta phases", [](Features& f) { f.has_delta_phases = 0; }},
     {"spectral MIS", [](Features& f) { f.is_chromatic = f.has_dispersion = 0; }},
+    {"media in closed form", [](Features& f) { f.has_closed_media = 0; }},
     {"grids", no_grids, {"brick tables", "grids", "majorants", "voxels"}},
     {"black body emission", [](Features& f) { f.has_temperature = 0; }, {"black body"}},
     {"exponential atmospheres",

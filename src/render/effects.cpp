@@ -67,7 +67,8 @@ class Collector {
     const Scene& scene_;
     Effects effects_;
     bool has_isotropic_phases_ = false;
-    std::string emitter_by_, phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_;
+    std::string emitter_by_, phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_,
+        closed_by_;
 };
 
 std::string place(const char* what, const SourceLocation& where) {
@@ -130,12 +131,15 @@ void Collector::collect_geometry() {
 /// What the density of a medium calls for.
 void Collector::collect_density(const Medium& medium, const std::string& by) {
     shared::Features& f = effects_.features;
+    bool is_tracked = false;
     if (const auto* exponential = std::get_if<ExponentialDensity>(&medium.density)) {
         f.densities |= exponential->is_spherical ? DENSITY_BIT_SPHERE : DENSITY_BIT_PLANE;
+        is_tracked = exponential->is_spherical;
         atmosphere_by_ = by;
     }
     if (const auto* grid = std::get_if<GridDensity>(&medium.density)) {
         f.densities |= DENSITY_BIT_GRID;
+        is_tracked = true;
         grid_by_ = by;
         if (!grid->density) {
             // Coefficients by voxel and channel: taken for chromatic without looking at each voxel.
@@ -145,6 +149,7 @@ void Collector::collect_density(const Medium& medium, const std::string& by) {
         }
         if (grid->temperature) f.has_temperature = 1, temperature_by_ = by;
     }
+    if (!is_tracked) f.has_closed_media = 1, closed_by_ = by;
 }
 
 /// What the phase functions of a medium that scatters call for.
@@ -180,7 +185,7 @@ void Collector::tell_phases() {
 
 void Collector::collect_media() {
     shared::Features& f = effects_.features;
-    f.densities = f.has_rgb_grids = f.has_temperature = 0;
+    f.densities = f.has_rgb_grids = f.has_temperature = f.has_closed_media = 0;
     f.has_media = f.has_scattering = f.has_emission = f.is_analog = 0;
     f.phases = f.has_mixtures = f.has_chromatic_phases = f.has_delta_phases = 0;
     f.is_chromatic =
@@ -228,6 +233,7 @@ void Collector::collect_media() {
     add("emission of media", f.has_emission, emission_by);
     tell_phases();
     add("spectral MIS", f.is_chromatic, chromatic_by);
+    add("media in closed form", f.has_closed_media, closed_by_);
     add("grids", f.densities & DENSITY_BIT_GRID, grid_by_);
     add("black body emission", f.has_temperature, temperature_by_);
     add("exponential atmospheres", f.densities & (DENSITY_BIT_PLANE | DENSITY_BIT_SPHERE),

@@ -109,6 +109,7 @@ const std::vector<Removal> kRemovals{
     {"chromatic phases", {}},
     {"delta phases", {}},
     {"spectral MIS", {}},
+    {"media in closed form", {"pass_segment", "flight_distance"}},
     {"grids", {}},
     {"black body emission", {"blackbody"}},
     {"exponential atmospheres", {"exponential_column"}},
@@ -295,6 +296,21 @@ TEST_F(EffectListTest, ForcedEffectsLeaveTheImageAsItIs) {
             << "no teeth: " << name;
         EXPECT_EQ(sums(more), expected) << name;
     }
+}
+
+/// Likewise for what the scene above calls for.
+TEST_F(EffectListTest, ClosedFormsBesideVoxelsLeaveTheImageAsItIs) {
+    const Scene scene = full_scene("media in closed form");
+    const auto sums = [&](const Effects& effects) {
+        Renderer renderer(context(), scene, effects, {});
+        renderer.render(0, 4);
+        return renderer.read_sums();
+    };
+    const Effects own = compute_effects(scene);
+    Effects more = own;
+    ASSERT_EQ(more.features.has_closed_media, 0) << "no teeth";
+    more.features.has_closed_media = 1;
+    EXPECT_EQ(sums(more), sums(own));
 }
 
 } // namespace

@@ -69,14 +69,16 @@ class FullScene {
                 add_shape(scene_, full_sphere(0.45), {.inside = medium}, translation(center));
             return &scene_.media.back();
         };
-        Medium* plain = add_ball({-1.2, 0.6, -1});
-        plain->phases = phases();
-        if (!has("interfaces")) {
-            plain->sigma_a = 0.02 * plain->sigma_a, plain->sigma_s = 0.02 * plain->sigma_s;
-            return;
+        if (has("media in closed form")) {
+            Medium* plain = add_ball({-1.2, 0.6, -1});
+            plain->phases = phases();
+            if (!has("interfaces")) {
+                plain->sigma_a = 0.02 * plain->sigma_a, plain->sigma_s = 0.02 * plain->sigma_s;
+                return;
+            }
         }
         if (has("grids")) add_grid(*add_ball({0, 0.6, -1}), {0, 0.6, -1});
-        if (has("exponential atmospheres")) {
+        if (has("exponential atmospheres") && has("media in closed form")) {
             ExponentialDensity density;
             density.scale_height = 0.3;
             density.origin = {0, 1.6, 0};
