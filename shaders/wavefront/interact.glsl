@@ -54,7 +54,7 @@ uint queue_of_surface(uint primitive) {
 /// Counts a scattering event; false if the path has had its share, and ends.
 bool may_scatter(inout Path p) {
     const bool may = p.depth != max_depth;
-    note_mishap(HEALTH_EVENT_LIMIT, !may && max_depth < push.max_depth);
+    note_mishap(HEALTH_EVENT_LIMIT, !may && depth_is_cut);
     if (!may) log_path(EVENT_DEPTH_LIMIT, p);
     p.status = may ? p.status : STATUS_ENDED;
     p.depth += may ? 1u : 0u;

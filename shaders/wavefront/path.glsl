@@ -147,6 +147,7 @@ void store_ticket(uint slot, Path p) {
 // alone.
 uvec2 seed = push.seed;
 uint max_depth = min(push.max_depth, event_limit); // each scattering is an event
+bool depth_is_cut = push.max_depth > event_limit;  // by no wish of the scene
 float roulette_scale = push.roulette_scale;
 
 /// The four random words of a block of the path's present event, whichever the sampler.

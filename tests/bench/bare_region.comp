@@ -36,10 +36,9 @@ void main() {
             const bool begins = p.status == STATUS_ENDED;
             if (begins && p.path_sample == p.piece_end) break;
             const uint event = begins ? 2u : p.event;
-            const uvec4 words = random_block(push.seed, p.stream, p.path_sample, event, BLOCK_PATH);
+            const uvec4 words = random_block(seed, p.stream, p.path_sample, event, BLOCK_PATH);
             if (begins) {
-                const uvec4 first =
-                    random_block(push.seed, p.stream, p.path_sample, 0u, BLOCK_PATH);
+                const uvec4 first = random_block(seed, p.stream, p.path_sample, 0u, BLOCK_PATH);
                 const vec2 radius = vec2(camera.filter_x_radius, camera.filter_y_radius);
                 const vec2 at =
                     (2.0 * vec2(unit_float(first.x), unit_float(first.y)) - 1.0) * radius;
