@@ -49,12 +49,11 @@ void take_hit(bool is_hit, float t, uint primitive, uint instance, inout Hit hit
 
 void walk_triangles(Ray ray, uint root, uint instance, bool any, Skip skip, inout Hit hit) {
     Walk w = start_walk(root);
-    const uint table = push.primitives;
     do {
         descend(ray, hit.t, w);
         const bool is_primitive = w.leaf != NONE;
         const uint i = is_primitive ? w.leaf & LEAF_FIRST_MASK : 0u;
-        const uint texel = table + i * PRIMITIVE_TEXELS;
+        const uint texel = primitive_table + i * PRIMITIVE_TEXELS;
         const vec4 plane = uintBitsToFloat(fetch_scene(texel + 3u));
         float t;
         const bool is_hit =
@@ -130,7 +129,7 @@ void walk_instances(Ray ray, bool any, Skip skip, inout Hit hit) {
         } while (w.leaf == NONE && w.node != NONE);
         goes_on = w.leaf != NONE;
         if (goes_on) {
-            const uint texel = push.primitives + (w.leaf & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
+            const uint texel = primitive_table + (w.leaf & LEAF_FIRST_MASK) * PRIMITIVE_TEXELS;
             instance = fetch_scene(texel + 2u).w;
             const uint record = push.instances + instance * INSTANCE_TEXELS;
             const AffineRecord object_from_world = load_affine(record);
@@ -221,7 +220,7 @@ void box_point(PrimitiveRecord p, inout vec3 position, out vec3 normal, out floa
 }
 
 uint shape_of(uint primitive) {
-    return fetch_scene(push.primitives + primitive * PRIMITIVE_TEXELS).w & SHAPE_MASK;
+    return fetch_scene(primitive_table + primitive * PRIMITIVE_TEXELS).w & SHAPE_MASK;
 }
 
 /// Where the ray hit, exactly on the primitive as far as float32 goes. The error is that of the

@@ -111,8 +111,9 @@ void main() {
     const bool scatters = (lights != 0u || has_environment != 0u) && p.depth < max_depth;
     const bool is_incremental = is_tracked(medium);
 
+    const uint run_length = push.run_length;
     bool casts = false;
-    for (uint done = 0u; i < s.count && !casts && done < push.run_length; ++done) {
+    for (uint done = 0u; i < s.count && !casts && done < run_length; ++done) {
         const float begin = step_place(s, float(i));
         const float u = march == MARCH_UNIFORM ? 0.5 : unit_float(draw(p, BLOCK_PATH).x);
         const float t = step_place(s, float(i) + u);

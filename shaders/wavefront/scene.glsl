@@ -5,6 +5,11 @@
 #include "lib/medium.glsl"
 #include "wavefront/buffers.glsl"
 
+// Push constants that loops need, read once a kernel: in a loop, each time costs a CPU driver some
+// 35 instructions.
+uint primitive_table = push.primitives;
+uint quadric_table = push.quadrics;
+
 vec3 floats(uvec4 texel) {
     return uintBitsToFloat(texel.xyz);
 }
@@ -76,7 +81,7 @@ ShapeRecord load_shape(uint index) {
 }
 
 PrimitiveRecord load_primitive(uint index) {
-    const uint texel = push.primitives + index * PRIMITIVE_TEXELS;
+    const uint texel = primitive_table + index * PRIMITIVE_TEXELS;
     PrimitiveRecord p;
     uvec4 t = fetch_scene(texel);
     p.a = floats(t);
@@ -119,7 +124,7 @@ vec3 transform_magnitude(AffineRecord m, vec3 p) {
 }
 
 QuadricRecord load_quadric(uint index) {
-    const uint texel = push.quadrics + index * QUADRIC_TEXELS;
+    const uint texel = quadric_table + index * QUADRIC_TEXELS;
     QuadricRecord q;
     q.object_from_world = load_affine(texel);
     q.world_from_object = load_affine(texel + 3u);

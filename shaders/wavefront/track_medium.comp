@@ -57,6 +57,7 @@ void main() {
         tau = track.y;
     }
 
+    const uint run_length = push.run_length;
     bool goes_on = t < f.t_end;
     uint end = END_PASSED;
     uint steps = 0u;
@@ -93,7 +94,7 @@ void main() {
             goes_on = end == END_PASSED && t < f.t_end && !is_black(p.throughput) &&
                       p.event < event_limit;
         }
-    } while (goes_on && ++steps < push.run_length && steps_walked < STEPS_MAX);
+    } while (goes_on && ++steps < run_length && steps_walked < STEPS_MAX);
 
     const bool is_real = end == END_SCATTERED;
     p.status = goes_on                                         ? STATUS_TRACKING

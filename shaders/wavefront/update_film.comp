@@ -50,9 +50,14 @@ struct BatchErrors {
     vec4 covariances;
 };
 
+// Push constants that loops need, read once.
+uint first_sample = push.first_sample, end_sample = push.end_sample;
+uint first_piece = push.first_piece, window_mask = push.window - 1u;
+uint pixel_count = push.pixel_count;
+
 /// First sample of a batch, as far as they are rendered.
 uint rendered_first_sample(uint batch) {
-    return clamp(batch_first_sample(batch), push.first_sample, push.end_sample);
+    return clamp(batch_first_sample(batch), first_sample, end_sample);
 }
 
 /// Of what is squared, so that it stays in range.
@@ -61,7 +66,7 @@ float film_unit = uintBitsToFloat(fetch_scene(MARCH_TEXEL).z);
 /// Adds a batch to the pixel, and its contrast to the errors.
 void fold_batch(uint batch, vec4 value, inout FilmPixel film, inout BatchErrors errors) {
     const uint first = rendered_first_sample(batch);
-    const float before = float(first - push.first_sample);
+    const float before = float(first - first_sample);
     const float count = float(rendered_first_sample(batch + 1u) - first);
     const vec4 all = film.sum + film.compensation;
     vec3 d = vec3(0);
@@ -99,13 +104,12 @@ void fold(uint pixel, inout FilmPixel film, inout BatchErrors errors) {
     const uint end = control.folded_pieces + control.fold_count;
     uint piece = control.folded_pieces;
     while (piece < end) {
-        const uint batch =
-            number_of(first_sample_of(push.first_piece + piece, limit), BATCH_LOG2_LIMIT);
+        const uint batch = number_of(first_sample_of(first_piece + piece, limit), BATCH_LOG2_LIMIT);
         const uint batch_end = number_of(rendered_first_sample(batch + 1u) - 1u, limit) + 1u;
-        const uint stop = min(end, batch_end - push.first_piece);
+        const uint stop = min(end, batch_end - first_piece);
         for (; piece < stop; ++piece)
-            film.batch += load_piece((piece % push.window) * push.pixel_count + pixel);
-        if (push.first_piece + piece == batch_end) {
+            film.batch += load_piece((piece & window_mask) * pixel_count + pixel);
+        if (first_piece + piece == batch_end) {
             fold_batch(batch, film.batch, film, errors);
             film.batch = vec4(0);
         }
@@ -133,7 +137,7 @@ void main() {
     if (lane >= lanes) return;
     BatchErrors batch_errors = BatchErrors(vec4(0), vec4(0));
     vec4 pixel_errors = vec4(0);
-    for (uint pixel = lane; pixel < push.pixel_count; pixel += lanes) {
+    for (uint pixel = lane; pixel < pixel_count; pixel += lanes) {
         const uint at = pixel * FILM_TEXELS;
         FilmPixel film = load_pixel(at);
         fold(pixel, film, batch_errors);
