@@ -44,5 +44,7 @@ void main() {
     // A slot that waits holds a ticket that is not due, and tickets are handed out in order.
     const bool is_idle = control.next_ticket == control.ticket_limit + push.slot_count;
     control.slot_rounds += control.slot_dispatch.x == 0u ? 0u : 1u;
-    control.slot_dispatch = dispatch_size(is_idle ? 0u : push.slot_count);
+    const uint groups =
+        (push.slot_count + workgroup_size - 1u) / workgroup_size; // in one dimension
+    control.slot_dispatch = DispatchSize(is_idle ? 0u : groups, 1u, 1u);
 }
