@@ -68,10 +68,7 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
     if (collides) {
         log_path(EVENT_COLLISION, p);
         const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
-        const bool at_limit = p.depth == max_depth;
-        if (!is_absorbed && !at_limit) scatter(p, medium, words);
-        ++p.depth;
-        p.status = at_limit ? STATUS_ENDED : p.status;
+        if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
         ++p.event;
     } else {
         escape(p, camera);

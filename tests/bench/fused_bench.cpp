@@ -2,6 +2,7 @@
 #include "bench/bench.h"
 #include "bench/fused_cube.h"
 #include "spirv/bare_region.h"
+#include "spirv/bare_unwatched.h"
 #include "spirv/fused_paths.h"
 
 #include <algorithm>
@@ -43,12 +44,12 @@ void fused_cube(benchmark::State& state) {
 }
 BENCHMARK(fused_cube)->Name("fused_ratio/homogeneous-cube")->Iterations(6);
 
-/// The whole program against a build of it that has nothing else in it (bare_region.comp).
-void bare_cube(benchmark::State& state) {
-    constexpr std::uint32_t samples = 128;
+/// The whole program against a build of it that has nothing else in it (bare_region.glsl).
+void bare_cube(benchmark::State& state, std::span<const std::uint32_t> walk_region) {
+    constexpr std::uint32_t samples = 512;
     const Scene scene = read_bench_scene("device/pbrt/homogeneous-cube", kSize);
     std::vector<StageKind> stages(stage_kinds().begin(), stage_kinds().end());
-    stages.front().spirv = bare_region_spirv; // walk_region
+    stages.front().spirv = walk_region;
     Renderer whole(context(), scene);
     Renderer bare(context(), scene, compute_effects(scene), {}, stages);
     whole.render(0, 8);
@@ -58,7 +59,12 @@ void bare_cube(benchmark::State& state) {
     if (bare.read_film().pixels != whole.read_film().pixels)
         state.SkipWithError("the images differ");
 }
-BENCHMARK(bare_cube)->Name("bare_ratio/homogeneous-cube")->Iterations(12);
+BENCHMARK_CAPTURE(bare_cube, watched, bare_region_spirv)
+    ->Name("bare_ratio/homogeneous-cube")
+    ->Iterations(6);
+BENCHMARK_CAPTURE(bare_cube, unwatched, bare_unwatched_spirv)
+    ->Name("bare_ratio/unwatched")
+    ->Iterations(6);
 
 /// The stages of the wavefront in one kernel (fused_paths.comp), and what completes a round.
 std::vector<StageKind> fused_stages() {
