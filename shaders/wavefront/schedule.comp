@@ -44,7 +44,7 @@ void main() {
     // A slot that waits holds a ticket that is not due, and tickets are handed out in order.
     const bool is_idle = control.next_ticket == control.ticket_limit + push.slot_count;
     control.slot_rounds += control.slot_dispatch.x == 0u ? 0u : 1u;
-    const uint groups =
-        (push.slot_count + workgroup_size - 1u) / workgroup_size; // in one dimension
+    // In one dimension: stages on slots know theirs by it.
+    const uint groups = (push.slot_count + workgroup_size - 1u) / workgroup_size;
     control.slot_dispatch = DispatchSize(is_idle ? 0u : groups, 1u, 1u);
 }

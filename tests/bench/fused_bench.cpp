@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <functional>
 #include <limits>
+#include <span>
 
 namespace tyndall::bench {
 namespace {
@@ -29,6 +30,16 @@ void run_in_turns(benchmark::State& state, std::uint32_t samples,
     state.counters["ratio"] = best_bar / best_wavefront;
 }
 
+/// Likewise of two renderers, whose images must be the same.
+void compare(benchmark::State& state, std::uint32_t samples, Renderer& wavefront, Renderer& bar) {
+    wavefront.render(0, 1);
+    bar.render(0, 1);
+    run_in_turns(
+        state, samples, [&] { wavefront.render(0, samples); }, [&] { bar.render(0, samples); });
+    if (bar.read_film().pixels != wavefront.read_film().pixels)
+        state.SkipWithError("the images differ");
+}
+
 /// Against a kernel written for homogeneous-cube and nothing else.
 void fused_cube(benchmark::State& state) {
     constexpr std::uint32_t samples = 512;
@@ -46,18 +57,12 @@ BENCHMARK(fused_cube)->Name("fused_ratio/homogeneous-cube")->Iterations(6);
 
 /// The whole program against a build of it that has nothing else in it (bare_region.glsl).
 void bare_cube(benchmark::State& state, std::span<const std::uint32_t> walk_region) {
-    constexpr std::uint32_t samples = 512;
     const Scene scene = read_bench_scene("device/pbrt/homogeneous-cube", kSize);
     std::vector<StageKind> stages(stage_kinds().begin(), stage_kinds().end());
     stages.front().spirv = walk_region;
     Renderer whole(context(), scene);
     Renderer bare(context(), scene, compute_effects(scene), {}, stages);
-    whole.render(0, 8);
-    bare.render(0, 8);
-    run_in_turns(
-        state, samples, [&] { whole.render(0, samples); }, [&] { bare.render(0, samples); });
-    if (bare.read_film().pixels != whole.read_film().pixels)
-        state.SkipWithError("the images differ");
+    compare(state, 512, whole, bare);
 }
 BENCHMARK_CAPTURE(bare_cube, watched, bare_region_spirv)
     ->Name("bare_ratio/homogeneous-cube")
@@ -78,17 +83,11 @@ std::vector<StageKind> fused_stages() {
 
 /// Against all stages in one kernel.
 void fused_paths(benchmark::State& state, const std::string& name) {
-    constexpr std::uint32_t samples = 64;
     const Scene scene = read_bench_scene(name, kSize);
     const std::vector<StageKind> stages = fused_stages();
     Renderer renderer(context(), scene);
     Renderer fused(context(), scene, compute_effects(scene), {.slots = 4096}, stages); // its best
-    renderer.render(0, 1);
-    fused.render(0, 1);
-    run_in_turns(
-        state, samples, [&] { renderer.render(0, samples); }, [&] { fused.render(0, samples); });
-    if (fused.read_film().pixels != renderer.read_film().pixels)
-        state.SkipWithError("the images differ");
+    compare(state, 64, renderer, fused);
 }
 BENCHMARK_CAPTURE(fused_paths, smoke_grid, "device/pbrt/smoke-grid")
     ->Name("fused_ratio/smoke-grid")
