@@ -47,6 +47,7 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
         p.event = 0u;
         begin_sample(p, camera, draw(p, BLOCK_PATH));
     }
+    p.status = STATUS_RAY; // of whoever gets here: said outside the branch, nothing waits for it
     if (has_emission == 0u && lights == 0u) p.radiance = vec3(0); // all of it comes at the end
     float near = 0.0, far = INFINITY;
     bool hits = has_media != 0u && p.medium != VACUUM;
@@ -83,6 +84,7 @@ void keep_what_is_carried(inout Path p) {
     p.sum.xyz = colour(p.sum.xyz);
     if (is_chromatic == 0u) p.hero = 0u;
     if (!paths_find_lights()) p.pdf = 0.0;
+    if (filter_kind != FILTER_TABLE) p.weight = 1.0;
     if (geometry != GEOMETRY_NONE) p.medium = region.medium;
 }
 
