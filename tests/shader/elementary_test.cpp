@@ -224,7 +224,7 @@ TEST_F(Elementary, DisksAreMappedConcentrically) {
         swapped = std::max(swapped, glm::length(p - map(inputs[i].y, inputs[i].x)));
         ASSERT_LE(glm::length(p), 1 + 2e-7);
     }
-    EXPECT_LT(worst, 3e-7);
+    EXPECT_LT(worst, 4e-7); // of it a square root and a division, which may be off by 1.5e-7 each
     EXPECT_GT(swapped, 0.1) << "no teeth";
 }
 
