@@ -3,6 +3,7 @@
 #include "scene/reader.h"
 
 #include <benchmark/benchmark.h>
+#include <chrono>
 #include <sys/resource.h>
 
 namespace tyndall::bench {
@@ -14,6 +15,12 @@ double cpu_seconds() {
         return double(t.tv_sec) + double(t.tv_usec) * 1e-6;
     };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double device_seconds() {
+    if (context().info().type == "cpu") return cpu_seconds();
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
 }
 
 gpu::Context& context() {

@@ -1,7 +1,4 @@
-/// What the benchmarks share: CPU time, a device, scenes.
-///
-/// Every figure is CPU seconds of the whole process (a CPU driver's threads included), which other
-/// load on the machine disturbs less than wall time.
+/// What the benchmarks share: clocks, a device, scenes.
 #pragma once
 
 #include "render/renderer.h"
@@ -10,15 +7,25 @@
 
 namespace tyndall::bench {
 
-/// Of this process so far, all threads.
+/// CPU seconds of this process so far, all threads.
 double cpu_seconds();
+/// A clock for what the device does: where it is the CPU, its driver's threads are this process's,
+/// and other load on the machine disturbs CPU time less than elapsed time, which is for the others.
+double device_seconds();
 
-/// CPU seconds of what `work` does.
 template<typename Work>
 double cpu_of(const Work& work) {
     const double start = cpu_seconds();
     work();
     return cpu_seconds() - start;
+}
+
+/// What work costs that waits for the device.
+template<typename Work>
+double cost_of(const Work& work) {
+    const double start = device_seconds();
+    work();
+    return device_seconds() - start;
 }
 
 /// The first usable device; made by the first call.

@@ -32,12 +32,12 @@ void effects(benchmark::State& state) {
     forced.render(0, 1);
     double without = std::numeric_limits<double>::max(), with = without;
     for (auto _ : state) {
-        without = std::min(without, cpu_of([&] { plain.render(0, samples); }));
-        with = std::min(with, cpu_of([&] { forced.render(0, samples); }));
+        without = std::min(without, cost_of([&] { plain.render(0, samples); }));
+        with = std::min(with, cost_of([&] { forced.render(0, samples); }));
     }
     state.SetLabel(name);
     state.counters["times_as_long"] = with / without;
-    state.counters["cpu_seconds_per_Mpath"] = without / (double(size) * size * samples) * 1e6;
+    state.counters["seconds_per_Mpath"] = without / (double(size) * size * samples) * 1e6;
     state.counters["more_instructions"] = double(instructions_of(forced) - instructions_of(plain));
 }
 BENCHMARK(effects)

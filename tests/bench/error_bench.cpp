@@ -36,10 +36,10 @@ void error_overhead(benchmark::State& state) {
     renderer.render(0, 1);
     double blind = std::numeric_limits<double>::max(), looking = blind, film = blind;
     for (auto _ : state) {
-        blind = std::min(blind, cpu_of([&] { renderer.render(0, subject.samples); }));
+        blind = std::min(blind, cost_of([&] { renderer.render(0, subject.samples); }));
         film = std::min(film, stage_percent(renderer, "update_film"));
         looking =
-            std::min(looking, cpu_of([&] {
+            std::min(looking, cost_of([&] {
                          renderer.render(0, subject.samples, [](const Progress&) { return true; });
                      }));
     }

@@ -23,13 +23,13 @@ GridDensity& density_of(Scene& scene) {
     return std::get<GridDensity>(scene.media[0].density);
 }
 
-/// CPU seconds per million paths with the majorants that the scene has, the least of some runs.
+/// Seconds per million paths with the majorants that the scene has, the least of some runs.
 double cpu_per_million(const Scene& scene, std::uint32_t samples, int runs = 3) {
     Renderer renderer(context(), scene);
     renderer.render(0, 1);
     double least = std::numeric_limits<double>::max();
     for (int run = 0; run < runs; ++run)
-        least = std::min(least, cpu_of([&] { renderer.render(0, samples); }));
+        least = std::min(least, cost_of([&] { renderer.render(0, samples); }));
     return least / (double(kPixels) * kPixels * samples) * 1e6;
 }
 
@@ -110,7 +110,7 @@ const std::array<Cloud, 4> kClouds{{
     {"smoke.vdb", 64, [] { return read_bench_scene("../scenes/smoke", kPixels); }},
 }};
 
-/// CPU time with the cells that choose_majorants takes, over the same with others.
+/// Time with the cells that choose_majorants takes, over the same with others.
 void majorant_cells(benchmark::State& state) {
     const Cloud& cloud = kClouds[static_cast<std::size_t>(state.range(0))];
     Scene scene = cloud.make();
@@ -133,7 +133,7 @@ void majorant_cells(benchmark::State& state) {
     for (const auto& [size, seconds] : least)
         state.counters[size > longest ? "one_majorant" : fmt::format("cells_of_{:03}", size)] =
             seconds / least[chosen.size];
-    state.counters["cpu_seconds_per_Mpath"] = least[chosen.size];
+    state.counters["seconds_per_Mpath"] = least[chosen.size];
 }
 BENCHMARK(majorant_cells)
     ->DenseRange(0, int(kClouds.size()) - 1)

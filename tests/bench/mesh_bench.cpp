@@ -146,7 +146,7 @@ void mesh_rays(benchmark::State& state) {
     double ours = std::numeric_limits<double>::max(), embrees = ours;
     std::vector<float> expected;
     for (auto _ : state) {
-        ours = std::min(ours, cpu_of([&] { device.trace(); }));
+        ours = std::min(ours, cost_of([&] { device.trace(); }));
         embrees = std::min(embrees, cpu_of([&] { expected = embree.trace({0, 0}); }));
     }
     const std::vector<glm::vec4> got = device.distances();

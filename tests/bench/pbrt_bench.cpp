@@ -50,13 +50,13 @@ void equal_error(benchmark::State& state) {
     for (auto _ : state) {
         yardstick =
             std::min(yardstick, cpu_of([&] { paths_walked = run_yardstick(++round).paths; }));
-        best = std::min(best, cpu_of([&] { renderer.render(0, samples); }));
+        best = std::min(best, cost_of([&] { renderer.render(0, samples); }));
     }
     const double ours = best / paths * 1e6 * variance_per_sample(renderer);
     const double theirs = pbrt.cpu_seconds_per_million_paths * pbrt.variance_per_sample;
     const double yardstick_now = yardstick / paths_walked * 1e6;
     state.SetLabel(std::string(pbrt.scene) + (state.range(1) ? ", Sobol'" : ", independent"));
-    state.counters["cpu_seconds_per_Mpath"] = best / paths * 1e6;
+    state.counters["seconds_per_Mpath"] = best / paths * 1e6;
     state.counters["variance_per_sample"] = variance_per_sample(renderer);
     state.counters["yardstick_cpu_seconds_per_Mpath"] = yardstick_now;
     state.counters["times_pbrt"] = theirs / ours * (yardstick_now / kYardstickThen);

@@ -1,4 +1,4 @@
-/// What a sampler is worth: the square error of an image times CPU time, that of independent random
+/// What a sampler is worth: the square error of an image times time, that of independent random
 /// numbers over that of Sobol' points, as they are and in Z order; and the same of errors that are
 /// left when the eye, a Gaussian of a pixel, has blurred them.
 #include "bench/bench.h"
@@ -55,7 +55,7 @@ double square_of(const Plane& plane) {
 }
 
 struct Cost {
-    double cpu = std::numeric_limits<double>::max();
+    double seconds = std::numeric_limits<double>::max();
     double error = 0, blurred = 0; ///< Squares.
     double stated = 0;             ///< As the render states it; the square of the image is 1.
     double power = 0;
@@ -66,7 +66,7 @@ void add_round(Renderer& renderer, std::uint64_t seed, std::uint32_t samples, Co
     std::array<Image, 2> films;
     for (std::size_t i = 0; i < 2; ++i) {
         renderer.set_seed(seed + i);
-        cost.cpu = std::min(cost.cpu, cpu_of([&] { renderer.render(0, samples); }));
+        cost.seconds = std::min(cost.seconds, cost_of([&] { renderer.render(0, samples); }));
         films[i] = renderer.read_film();
         if (const auto error = renderer.error())
             cost.stated += error->relative_rmse * error->relative_rmse / 2;
@@ -106,8 +106,9 @@ void sampler_gain(benchmark::State& state) {
         const Cost& cost = costs[i];
         const std::string p = i == 1 ? "sobol_" : "zsobol_";
         state.counters[p + "variance"] = independent.error / cost.error;
-        state.counters[p + "cpu"] = cost.cpu / independent.cpu;
-        state.counters[p + "gain"] = independent.error * independent.cpu / (cost.error * cost.cpu);
+        state.counters[p + "time"] = cost.seconds / independent.seconds;
+        state.counters[p + "gain"] =
+            independent.error * independent.seconds / (cost.error * cost.seconds);
         state.counters[p + "blurred"] = independent.blurred / cost.blurred;
         state.counters[p + "stated"] =
             cost.stated * cost.power / (cost.error * double(state.iterations()));

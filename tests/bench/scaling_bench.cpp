@@ -1,4 +1,4 @@
-/// How CPU time grows with what a scene holds: lights, triangles, voxels; with a plot.
+/// How time grows with what a scene holds: lights, triangles, voxels; with a plot.
 #include "bench/bench.h"
 #include "bench/made_scenes.h"
 #include "scene/cloud.h"
@@ -67,14 +67,14 @@ Scene with_voxels(int edge) {
     return scene;
 }
 
-/// Seconds of CPU time per million paths, the least of several renders.
-double cost_of(const Scene& scene) {
+/// The least of several renders.
+double seconds_per_million_paths(const Scene& scene) {
     constexpr std::uint32_t samples = 16;
     Renderer renderer(context(), scene);
     renderer.render(0, 1);
     double best = std::numeric_limits<double>::max();
     for (int i = 0; i < 5; ++i)
-        best = std::min(best, cpu_of([&] { renderer.render(0, samples); }));
+        best = std::min(best, cost_of([&] { renderer.render(0, samples); }));
     return best / (double(kPixels) * kPixels * samples) * 1e6;
 }
 
@@ -97,7 +97,7 @@ const std::array<Sweep, 3> kSweeps{{
     {"voxels", with_about_voxels, {1000, 8000, 64000, 1000000, 8000000}, 8000, 8000000},
 }};
 
-/// What the sweeps so far took: CPU seconds per million paths by count.
+/// What the sweeps so far took: seconds per million paths by count.
 std::array<std::map<int, double>, kSweeps.size()> costs;
 
 /// Draws them, each relative to its first scene, into scaling.svg in the working directory.
@@ -125,7 +125,7 @@ void scaling(benchmark::State& state) {
     const Sweep& sweep = kSweeps.at(index);
     for (auto _ : state)
         for (const int count : sweep.counts) {
-            costs.at(index)[count] = cost_of(sweep.scene(count));
+            costs.at(index)[count] = seconds_per_million_paths(sweep.scene(count));
             state.counters[std::to_string(count)] = costs.at(index)[count];
         }
     state.counters["times_as_long"] = costs.at(index)[sweep.many] / costs.at(index)[sweep.few];
