@@ -112,6 +112,7 @@ class Renderer {
     std::optional<stats::ErrorEstimate> error_;
     stats::SampleHistogram histogram_{};
     StageTimes stage_times_;
+    double timed_share_ = 0;   ///< Of the rounds of a submission, those before the one timed.
     std::uint32_t rounds_ = 1; ///< Per submission, so that one takes about kSubmitSeconds.
 };
 

@@ -28,7 +28,7 @@ class StageTimes {
         seen_queues_ = {};
         seen_rounds_ = 0;
     }
-    /// Takes in a submission of so many rounds, of which the first took so long by stage.
+    /// Takes in a submission of so many rounds, of which one took so long by stage.
     void add(const std::vector<double>& seconds, std::uint32_t rounds);
     /// Takes in the control block, whose counters wrap at 2^32.
     void take_in(const shared::Control& control);

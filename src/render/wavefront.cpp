@@ -161,17 +161,18 @@ void Wavefront::record_fold_limits(gpu::Commands& commands, std::uint32_t limit,
 }
 
 void Wavefront::record_rounds(gpu::Commands& commands, std::uint32_t rounds,
-                              std::uint32_t fold_limit, const gpu::Timestamps& clock) const {
+                              std::uint32_t fold_limit, const gpu::Timestamps& clock,
+                              std::uint32_t timed_round) const {
     // Each fold reads and writes the whole film, so several pieces at once; but the rest of the
     // window must be work enough meanwhile.
     record_fold_limits(commands, fold_limit, std::max(push_.window / 4, 1u));
     commands.reset(clock);
-    commands.mark(clock, 0);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         std::uint32_t mark = 0;
+        if (round == timed_round) commands.mark(clock, mark);
         for (const BuiltStage& built : stages_) {
             record_stage(commands, built);
-            if (round == 0) commands.mark(clock, ++mark);
+            if (round == timed_round) commands.mark(clock, ++mark);
         }
     }
 }

@@ -47,10 +47,10 @@ class Wavefront {
                      std::uint32_t first_sample, std::uint32_t end_sample, bool clear_film);
 
     /// Records `rounds` rounds; each advances every path by at least one event. No more than
-    /// `fold_limit` pieces of the epoch get into the film. The first round is timed: `clock` has
-    /// one mark more than there are stages.
+    /// `fold_limit` pieces of the epoch get into the film. One round is timed: `clock` has one mark
+    /// more than there are stages.
     void record_rounds(gpu::Commands& commands, std::uint32_t rounds, std::uint32_t fold_limit,
-                       const gpu::Timestamps& clock) const;
+                       const gpu::Timestamps& clock, std::uint32_t timed_round) const;
     /// Folds pieces that are complete, as rounds do only once they are several, up to
     /// `fold_limit`.
     void fold(std::uint32_t fold_limit) const;
