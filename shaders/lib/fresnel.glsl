@@ -8,7 +8,7 @@
 #ifndef TYNDALL_FRESNEL_GLSL
 #define TYNDALL_FRESNEL_GLSL
 
-const float FLOAT_MIN = 1.17549435e-38;
+#include "lib/sampling.glsl"
 
 /// A boundary of dielectrics as light meets it.
 struct Boundary {

@@ -8,7 +8,8 @@
 const float PI = 3.14159265358979;
 #define INFINITY uintBitsToFloat(0x7F800000u)
 const float FLOAT_MAX = 3.402823466e38;
-const float EPSILON = 5.9604645e-8; // 2^-24: half an ulp of 1
+const float FLOAT_MIN = 1.17549435e-38; // of those with all their digits
+const float EPSILON = 5.9604645e-8;     // 2^-24: half an ulp of 1
 
 /// sin and cos of 2 pi u, for u in [0, 1]. Absolute error below 1.2e-7.
 vec2 sin_cos_turns(float u) {

@@ -101,7 +101,9 @@ TYNDALL_SHARED_END
     X(39, sampler_kind, 0) /* SAMPLER_* */                                                         \
     X(40, zsobol_bits, 4)  /* Scene::zsobol_bits */                                                \
     X(41, has_delta_phases, 1) /* some phase function is as good as a delta (lib/phase.glsl) */    \
-    X(42, has_closed_media, 1) /* some medium has transmittance in closed form: not all tracked */
+    X(42, has_closed_media, 1) /* some medium has transmittance in closed form: not all tracked */ \
+    X(43, light_candidates,                                                                        \
+      4) /* drawn by power, to choose among by place; 1: power alone decides */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

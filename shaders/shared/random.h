@@ -18,6 +18,9 @@
 //             BLOCK_LIGHT  0: choice of light                   1, 2: position on the light
 //                          3: reflection or transmission; absorption or scattering (analog)
 //
+// Where a light is chosen among n candidates, word 0 draws the first of them, and the same word
+// i / n of its range further on draws another; the low eight bits of words 1, 2 and 3 choose.
+//
 // In a march each step is an event: BLOCK_PATH 0: place in the step; 1, 2: direction of scattering
 // towards the environment; BLOCK_LIGHT as above, with 3: whether the environment is asked.
 //
@@ -79,6 +82,11 @@ TYNDALL_SHARED_INLINE uvec4 random_block(uvec2 seed, uint pixel, uint path_sampl
 /// A word as a number in [0, 1): its upper 24 bits, exact in float32.
 TYNDALL_SHARED_INLINE float unit_float(uint word) {
     return float(word >> 8) * (1.0f / 16777216.0f);
+}
+
+/// A number in [0, 1) from the bits of three words that unit_float leaves.
+TYNDALL_SHARED_INLINE float unit_float_of_rest(uint a, uint b, uint c) {
+    return float((a & 255u) << 16 | (b & 255u) << 8 | (c & 255u)) * (1.0f / 16777216.0f);
 }
 
 TYNDALL_SHARED_END

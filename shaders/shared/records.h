@@ -196,16 +196,17 @@ TYNDALL_CONSTANT uint NODE_WIDTH_MASK = 0x7FC00000u;
 
 /// A light that light sampling chooses.
 struct LightRecord {
-    vec3 position;     ///< point, spot; direction of travel for distant
+    vec3 position;     ///< Its middle; direction of travel for distant
     uint kind;         ///< LIGHT_*
     vec3 radiance;     ///< area: radiance; point, spot: intensity; distant: irradiance
     float probability; ///< That it is chosen.
-    vec3 axis;         ///< spot
+    vec3 axis;         ///< spot: where it shines; area: its mean normal, 0 for spheres
     uint primitive;    ///< area: index into the primitives; voxels: texel of the VoxelLightRecord
     float complement_start; ///< spot: 1 - cos of the angle up to which it is at full intensity,
-    float complement_width; ///< and of that from which there is none.
-    float pad0;
-    float pad1;
+                            ///< area: share of importance that no direction has more of.
+    float complement_width; ///< spot: 1 - cos of the angle from which there is none.
+    float reach;            ///< Importance over power, times squared distance unless distant.
+    float size2;            ///< Added to the squared distance from its middle.
 };
 TYNDALL_CONSTANT uint LIGHT_TEXELS = 4u;
 

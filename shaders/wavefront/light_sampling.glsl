@@ -1,9 +1,10 @@
-// Next-event estimation: choosing a light, a point on it, and the chance of having done so.
+// Next-event estimation: a point on a light, and the chance of having chosen it.
 #ifndef TYNDALL_LIGHT_SAMPLING_GLSL
 #define TYNDALL_LIGHT_SAMPLING_GLSL
 
 #include "lib/light.glsl"
 #include "wavefront/geometry.glsl"
+#include "wavefront/light_choice.glsl"
 #include "wavefront/volume.glsl"
 
 // In LightSample::target and beside primitives, which are fewer: the medium in which the light is.
@@ -123,11 +124,11 @@ float emitter_pdf(uint light_index, vec3 from, vec3 position, vec3 normal) {
     vec3 to_center;
     float radius;
     const float sin2 = sphere_cone(p, from, to_center, radius);
-    if (sin2 <= 1.0) return light.probability / (2.0 * PI * cone_complement(sin2));
+    if (sin2 <= 1.0) return mis_probability(light) / (2.0 * PI * cone_complement(sin2));
     const vec3 to = position - from;
     const float squared = dot(to, to);
     const float cosine = abs(dot(normal, to)) * inversesqrt(squared);
-    return light.probability * emitter_area_density(p, position, normal) * squared / cosine;
+    return mis_probability(light) * emitter_area_density(p, position, normal) * squared / cosine;
 }
 
 void sample_area_light(LightRecord light, vec3 from, float u, float v, inout LightSample s) {
@@ -202,9 +203,8 @@ void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSa
     const VoxelLightRecord v = load_voxel_light(light.primitive);
     uint index, fraction;
     umulExtended(words.x, v.count, index, fraction);
-    const uint low = (words.y & 255u) << 16 | (words.z & 255u) << 8 | (words.w & 255u);
     uvec4 cell = fetch_scene(v.voxels + index);
-    if (float(low) * (1.0 / 16777216.0) >= uintBitsToFloat(cell.z))
+    if (unit_float_of_rest(words.y, words.z, words.w) >= uintBitsToFloat(cell.z))
         cell = fetch_scene(v.voxels + cell.w);
     const ivec3 voxel = v.lower + ivec3(cell.x & 0xFFFFu, cell.x >> 16, cell.y);
     const vec3 at =
@@ -227,14 +227,6 @@ void sample_voxel_light(LightRecord light, vec3 from, uvec4 words, inout LightSa
     s.target = TARGET_MEDIUM | v.medium;
 }
 
-LightRecord choose_light(uint word) {
-    uint index, fraction;
-    umulExtended(word, push.light_count, index, fraction);
-    const uvec4 cell = fetch_scene(push.alias_table + index);
-    if (float(fraction) * (1.0 / 4294967296.0) >= uintBitsToFloat(cell.x)) index = cell.y;
-    return load_light(index);
-}
-
 /// A point of a light, for steps about it; false if it is at infinity, or everywhere in a grid.
 bool light_place(LightRecord light, float u, float v, out vec3 place) {
     if ((lights & LIGHTS_AREA) != 0u &&
@@ -251,7 +243,8 @@ bool light_place(LightRecord light, float u, float v, out vec3 place) {
 /// Draws a light and a direction to it from `from`; `words` are those of BLOCK_LIGHT of the path's
 /// event. Radiance is 0 if it does not shine here.
 LightSample sample_light(Path p, vec3 from, uvec4 words) {
-    const LightRecord light = choose_light(words.x);
+    float weight;
+    const LightRecord light = choose_light(from, words, weight);
     LightSample s = LightSample(vec3(0, 0, 1), INFINITY, vec3(0), 0.0, NONE);
     if ((lights & LIGHTS_VOXELS) != 0u && light.kind == LIGHT_VOXELS) {
         sample_voxel_light(light, from, draw_random(p, BLOCK_EMISSION), s);
@@ -267,10 +260,12 @@ LightSample sample_light(Path p, vec3 from, uvec4 words) {
         s.direction = to / s.distance;
         s.radiance = light.radiance / (light.probability * s.distance * s.distance);
         if ((lights & LIGHTS_SPOT) != 0u && light.kind == LIGHT_SPOT) {
-            const vec3 off_axis = s.direction + light.axis;
-            s.radiance *= spot_falloff(0.5 * dot(off_axis, off_axis), light.complement_width,
-                                       light.complement_start);
+            s.radiance *= falloff_towards(light, s.direction);
         }
+    }
+    if (light_candidates != 1u) {
+        s.radiance *= weight;
+        s.pdf *= mis_probability(light) / light.probability;
     }
     return s;
 }

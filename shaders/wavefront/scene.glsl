@@ -155,6 +155,8 @@ LightRecord load_light(uint index) {
     t = fetch_scene(texel + 3u);
     light.complement_start = uintBitsToFloat(t.x);
     light.complement_width = uintBitsToFloat(t.y);
+    light.reach = uintBitsToFloat(t.z);
+    light.size2 = uintBitsToFloat(t.w);
     return light;
 }
 

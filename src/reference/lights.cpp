@@ -1,5 +1,7 @@
 #include "reference/lights.h"
 
+#include "scene/light_candidates.h"
+
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -56,8 +58,9 @@ double spot_falloff(const SpotLight& light, double cosine) {
     return x * x * (3 - 2 * x);
 }
 
-double spot_power(const SpotLight& light) {
-    return 2 * pi * mean(light.intensity) *
+/// The solid angle that would have as much light at full intensity.
+double spot_angle(const SpotLight& light) {
+    return 2 * pi *
            ((1 - light.cos_falloff_start) + (light.cos_falloff_start - light.cos_total_width) / 2);
 }
 
@@ -71,16 +74,22 @@ LightSample sample_point(const dvec3& position, const dvec3& place, const Rgb& i
 
 Lights::Lights(const Scene& scene, const Geometry& geometry, const dvec3& camera_position)
     : scene_(scene), geometry_(geometry), camera_position_(camera_position),
-      grid_emitter_(scene.media.size(), -1), first_emitter_(scene.shapes.size(), -1), choice_({}) {
-    std::vector<double> powers;
-    add_lights(scene, powers);
-    add_grids(scene, powers);
+      grid_emitter_(scene.media.size(), -1), first_emitter_(scene.shapes.size(), -1),
+      choice_({}, {}, 1) {
+    add_lights(scene);
+    add_grids(scene);
     for (std::uint32_t s = 0; s < scene.shapes.size(); ++s)
-        add_surface(scene, s, powers);
-    choice_ = AliasTable(powers);
+        add_surface(scene, s);
+    choice_ = LightChoice(powers_, reaches_, light_candidates(scene));
 }
 
-void Lights::add_lights(const Scene& scene, std::vector<double>& powers) {
+void Lights::add(Emitter emitter, double power, LightReach reach) {
+    emitters_.push_back(std::move(emitter));
+    powers_.push_back(power);
+    reaches_.push_back(std::move(reach));
+}
+
+void Lights::add_lights(const Scene& scene) {
     // A distant light shines on the ball around the bounds of all surfaces.
     const Bounds& box = geometry_.bounds();
     // Without any, on one of radius 1, in whatever medium there is.
@@ -90,42 +99,54 @@ void Lights::add_lights(const Scene& scene, std::vector<double>& powers) {
         if (const auto* infinite = std::get_if<InfiniteLight>(&light.emitter)) {
             background_ += infinite->radiance;
         } else if (const auto* distant = std::get_if<DistantLight>(&light.emitter)) {
-            emitters_.push_back(*distant);
-            powers.push_back(mean(distant->irradiance) * pi * radius * radius);
+            const double disk = pi * radius * radius;
+            add(*distant, mean(distant->irradiance) * disk, {1 / disk});
         } else if (const auto* point = std::get_if<PointLight>(&light.emitter)) {
-            emitters_.push_back(*point);
-            powers.push_back(mean(point->intensity) * 4 * pi);
+            add(*point, mean(point->intensity) * 4 * pi,
+                {1 / (4 * pi), point->position - camera_position_});
         } else if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) {
-            emitters_.push_back(*spot);
-            powers.push_back(spot_power(*spot));
+            const double angle = spot_angle(*spot);
+            add(*spot, mean(spot->intensity) * angle,
+                {1 / angle, spot->position - camera_position_, 0, [spot](const dvec3& direction) {
+                     return spot_falloff(*spot, -glm::dot(direction, spot->axis));
+                 }});
         }
     }
 }
 
-void Lights::add_grids(const Scene& scene, std::vector<double>& powers) {
+void Lights::add_grids(const Scene& scene) {
     for (int index : emitting_grids(scene)) {
         const Medium& medium = scene.media[static_cast<std::size_t>(index)];
         std::vector<EmittingVoxel> voxels = emitting_voxels(medium);
         if (voxels.empty()) continue;
         std::vector<double> weights;
+        Bounds box;
         double sum = 0;
         for (const EmittingVoxel& v : voxels) {
             weights.push_back(v.power);
             sum += v.power;
+            box.extend(dvec3(v.voxel) - 0.5);
+            box.extend(dvec3(v.voxel) + 0.5);
         }
         const dmat4 render_from_index =
             glm::translate(dmat4(1), -camera_position_) * medium.world_from_medium *
             glm::inverse(std::get<GridDensity>(medium.density).index_from_medium);
         const double total = sum * std::abs(glm::determinant(glm::dmat3(render_from_index)));
+        double size2 = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double edge =
+                (box.upper - box.lower)[axis] * glm::length(dvec3(render_from_index[axis]));
+            size2 += edge * edge / 12;
+        }
+        const dvec3 middle(render_from_index * glm::dvec4((box.lower + box.upper) / 2.0, 1));
         grid_emitter_[static_cast<std::size_t>(index)] =
             static_cast<std::int64_t>(emitters_.size());
-        emitters_.push_back(
-            GridEmitter{index, std::move(voxels), AliasTable(weights), total, render_from_index});
-        powers.push_back(total * 4 * pi);
+        add(GridEmitter{index, std::move(voxels), AliasTable(weights), total, render_from_index},
+            total * 4 * pi, {1 / (4 * pi), middle, size2});
     }
 }
 
-void Lights::add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers) {
+void Lights::add_surface(const Scene& scene, std::uint32_t index) {
     const Shape& shape = scene.shapes[index];
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
     if (shape.area_light < 0 || material.kind == Material::Kind::interface) return;
@@ -137,9 +158,25 @@ void Lights::add_surface(const Scene& scene, std::uint32_t index, std::vector<do
         // pbrt's rule: "power" is that of each primitive. One without an area gives no light.
         Rgb radiance = light.radiance;
         if (area > 0) radiance += light.power_radiance / area;
-        emitters_.push_back(AreaEmitter{{index, p}, radiance, light.two_sided});
-        powers.push_back(mean(radiance) * area * pi * (light.two_sided ? 2 : 1));
+        const AreaEmitter emitter{{index, p}, radiance, light.two_sided};
+        add(emitter, mean(radiance) * area * pi * (light.two_sided ? 2 : 1), reach_of(emitter));
     }
+}
+
+LightReach Lights::reach_of(const AreaEmitter& light) const {
+    const Surface& surface = geometry_.surfaces()[light.id.surface];
+    const double sides = light.two_sided ? 2 : 1;
+    const double size2 = surface.area(light.id.primitive) / (4 * pi);
+    const SurfacePoint middle = surface.middle(light.id.primitive);
+    // A ball is seen as a disk, a quarter of its surface.
+    if (surface.is_sphere()) return {1 / (4 * sides * pi), middle.position, size2};
+    // A patch, which need not be flat, is not taken to be dark in any direction.
+    const double least = surface.is_patch(light.id.primitive) ? 0.1 : 0;
+    return {1 / (sides * pi), middle.position, size2,
+            [normal = middle.normal, least, two_sided = light.two_sided](const dvec3& direction) {
+                const double cosine = -glm::dot(normal, direction);
+                return glm::mix(two_sided ? std::abs(cosine) : std::max(cosine, 0.0), 1.0, least);
+            }};
 }
 
 std::uint32_t Lights::area_light_index(const PrimitiveId& id) const {
@@ -148,8 +185,9 @@ std::uint32_t Lights::area_light_index(const PrimitiveId& id) const {
 
 std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& words,
                                           const glm::uvec4& voxel_words) const {
-    const std::uint32_t index = choice_.choose(words.x);
-    const Emitter& emitter = emitters_[index];
+    const std::optional<LightChoice::Choice> choice = choice_.choose(place, words);
+    if (!choice) return std::nullopt;
+    const Emitter& emitter = emitters_[choice->light];
     std::optional<LightSample> sample;
     if (const auto* distant = std::get_if<DistantLight>(&emitter)) {
         sample = LightSample{distant->irradiance, -distant->direction, std::nullopt, 1, true};
@@ -165,12 +203,13 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
         sample = sample_area(area, place, unit(words.y), unit(words.z));
     }
     if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
-    sample->probability *= choice_.probability(index);
+    sample->radiance *= choice->weight;
+    sample->probability *= choice_.mis_probability(choice->light);
     return sample;
 }
 
 std::optional<dvec3> Lights::place(const glm::uvec4& words) const {
-    const Emitter& emitter = emitters_[choice_.choose(words.x)];
+    const Emitter& emitter = emitters_[choice_.draw(words.x)];
     if (const auto* point = std::get_if<PointLight>(&emitter))
         return point->position - camera_position_;
     if (const auto* spot = std::get_if<SpotLight>(&emitter))
@@ -218,7 +257,7 @@ double Lights::density(int medium, const Rgb& emission, const Rgb& extinction,
     const std::int64_t index = grid_emitter_[static_cast<std::size_t>(medium)];
     if (index < 0) return 0;
     const auto& light = std::get<GridEmitter>(emitters_[static_cast<std::size_t>(index)]);
-    return choice_.probability(static_cast<std::size_t>(index)) / light.total * mean(emission) *
+    return choice_.mis_probability(static_cast<std::size_t>(index)) / light.total * mean(emission) *
            squared / std::max({extinction.x, extinction.y, extinction.z});
 }
 
@@ -259,7 +298,7 @@ Rgb Lights::emitted(const SurfaceHit& hit, const dvec3& ray_direction) const {
 double Lights::density(const dvec3& place, const SurfaceHit& hit) const {
     const std::uint32_t index = area_light_index(hit.id);
     const auto& light = std::get<AreaEmitter>(emitters_[index]);
-    return choice_.probability(index) * area_density(light, place, hit.point);
+    return choice_.mis_probability(index) * area_density(light, place, hit.point);
 }
 
 } // namespace tyndall::reference

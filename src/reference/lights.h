@@ -1,18 +1,20 @@
 /// Light sources: emission that a path runs into, and choosing a point of a light from a place.
 #pragma once
 
-#include "reference/alias_table.h"
 #include "reference/geometry.h"
+#include "reference/light_choice.h"
 #include "scene/emitting_voxels.h"
 
 namespace tyndall::reference {
 
 /// Light that would arrive at a place, if nothing were in the way.
 struct LightSample {
-    Rgb radiance;             ///< Along -direction; of a delta light, irradiance at the place.
-    dvec3 direction;          ///< From the place to the light, unit length.
+    Rgb radiance;    ///< Along -direction; of a delta light, irradiance at the place. Over the
+                     ///< probability, it is what this light stands for.
+    dvec3 direction; ///< From the place to the light, unit length.
     std::optional<dvec3> end; ///< Where the shadow ray ends; none: at infinity.
-    double probability;       ///< Of a delta light: of choosing it. Else: density per solid angle.
+    double probability; ///< Of a delta light: of choosing it. Else: density per solid angle. As
+                        ///< multiple importance sampling takes it.
     bool is_delta;
     /// The light is emission in this medium, and not there where another one is; -1: of none.
     int medium = -1;
@@ -21,7 +23,8 @@ struct LightSample {
 /// Infinite lights are constant: paths find them by escaping, and they are not sampled. The others
 /// are the distant, point and spot lights in the order of Scene::lights, then the grids that emit
 /// (emitting_grids), then every primitive of an emitting shape, in the order of Scene::shapes, as a
-/// light of its own; they are chosen in proportion to their power, averaged over the channels.
+/// light of its own; they are chosen by their power, averaged over the channels, and by their
+/// place.
 class Lights {
   public:
     /// Keeps references to both. Render space is the world minus camera_position.
@@ -30,8 +33,8 @@ class Lights {
     /// Whether sample() can ever return anything.
     bool can_sample() const { return !choice_.empty(); }
 
-    /// words.x chooses the light, words.y and words.z the point on it; voxel_words the point of a
-    /// grid. None if it does not shine there.
+    /// The words choose the light (LightChoice), words.y and words.z the point on it; voxel_words
+    /// the point of a grid. None if it does not shine there.
     std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words,
                                       const glm::uvec4& voxel_words) const;
 
@@ -67,9 +70,12 @@ class Lights {
     };
     using Emitter = std::variant<DistantLight, PointLight, SpotLight, AreaEmitter, GridEmitter>;
 
-    void add_lights(const Scene& scene, std::vector<double>& powers);
-    void add_grids(const Scene& scene, std::vector<double>& powers);
-    void add_surface(const Scene& scene, std::uint32_t index, std::vector<double>& powers);
+    /// Adds a light as sampling chooses it.
+    void add(Emitter emitter, double power, LightReach reach);
+    void add_lights(const Scene& scene);
+    void add_grids(const Scene& scene);
+    void add_surface(const Scene& scene, std::uint32_t index);
+    LightReach reach_of(const AreaEmitter& light) const;
     std::uint32_t area_light_index(const PrimitiveId& id) const;
     std::optional<LightSample> sample_area(const AreaEmitter& light, const dvec3& place, double u1,
                                            double u2) const;
@@ -85,7 +91,9 @@ class Lights {
     std::vector<Emitter> emitters_;
     std::vector<std::int64_t> grid_emitter_;  ///< For each of Scene::media; -1: is no light.
     std::vector<std::int64_t> first_emitter_; ///< For each of Scene::shapes; -1: does not emit.
-    AliasTable choice_;
+    std::vector<double> powers_;
+    std::vector<LightReach> reaches_;
+    LightChoice choice_;
 };
 
 } // namespace tyndall::reference

@@ -200,6 +200,17 @@ Parameters Surface::sample(std::uint32_t primitive, double u1, double u2) const 
     return {u2 * root, (1 - u2) * root, 0};
 }
 
+bool Surface::is_patch(std::uint32_t primitive) const {
+    return std::holds_alternative<Mesh>(shape_->geometry) && !is_triangle(primitive);
+}
+
+SurfacePoint Surface::middle(std::uint32_t primitive) const {
+    if (const auto* disk = std::get_if<Disk>(&shape_->geometry))
+        return point(primitive, {0, 0, disk->height});
+    if (is_sphere()) return point(primitive, dvec3(0));
+    return point(primitive, dvec3(is_patch(primitive) ? 0.5 : 1.0 / 3));
+}
+
 double Surface::area(std::uint32_t primitive) const {
     const auto jacobian = [&](double u1, double u2) {
         return point(primitive, sample(primitive, u1, u2)).jacobian;

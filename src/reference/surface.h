@@ -89,6 +89,11 @@ class Surface {
     /// Area of a primitive: the integral of the jacobian.
     double area(std::uint32_t primitive) const;
 
+    bool is_sphere() const { return std::holds_alternative<Sphere>(shape_->geometry); }
+    bool is_patch(std::uint32_t primitive) const;
+    /// The middle of a primitive; of a sphere its centre, where the normal means nothing.
+    SurfacePoint middle(std::uint32_t primitive) const;
+
     /// The sphere as a ball in space, if it is one: uncut, and scaled by the same in all
     /// directions.
     struct Ball {

@@ -92,6 +92,7 @@ const Entry kEntries[] = {
     {"distant lights", no_light<LIGHTS_DISTANT>},
     {"point lights", no_light<LIGHTS_POINT>},
     {"spot lights", no_light<LIGHTS_SPOT>},
+    {"choice among lights", [](Features& f) { f.light_candidates = 1; }},
     {"roulette by reach of light", [](Features& f) { f.has_lit_ball = 0; }, {"lit ball"}},
     {"depth of field", [](Features& f) { f.has_lens = 0; }},
     {"radiance limit", [](Features& f) { f.has_clamp = 0; }},

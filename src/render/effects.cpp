@@ -4,6 +4,7 @@
 #include "render/phase_tables.h"
 #include "scene/contacts.h"
 #include "scene/emitting_voxels.h"
+#include "scene/light_candidates.h"
 #include "shared/records.h"
 
 #include <algorithm>
@@ -281,6 +282,7 @@ void Collector::collect_lights() {
     const std::uint32_t lights = f.lights;
     effects_.lists_lights = f.lights != 0;
     if (!samples_lights(scene_.integrator)) f.lights = 0;
+    f.light_candidates = f.lights ? light_candidates(scene_) : 1;
     if (f.has_scattering) effects_.lit_ball = find_lit_ball(scene_);
     f.has_lit_ball = effects_.lit_ball.has_value();
     add("environment", f.has_environment, environment_by);
@@ -290,6 +292,7 @@ void Collector::collect_lights() {
     add("distant lights", lights & LIGHTS_DISTANT, distant_by);
     add("point lights", lights & LIGHTS_POINT, point_by);
     add("spot lights", lights & LIGHTS_SPOT, spot_by);
+    add("choice among lights", f.light_candidates > 1, "more lights than one");
     add("roulette by reach of light", f.has_lit_ball, "a medium without end");
 }
 

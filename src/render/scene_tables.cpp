@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "render/film_unit.h"
 #include "render/geometry_tables.h"
+#include "render/light_reach.h"
 #include "render/light_table.h"
 #include "render/primitives.h"
 #include "render/volume_tables.h"
@@ -207,22 +208,27 @@ std::vector<LightRecord> Packer::lights() {
     const double disk = diameter > 0 ? pi * diameter * diameter / 4 : pi;
     for (const Light& light : scene_.lights) {
         if (const auto* d = std::get_if<DistantLight>(&light.emitter)) {
-            records.push_back(
-                {.position = d->direction, .kind = LIGHT_DISTANT, .radiance = d->irradiance});
+            records.push_back({.position = d->direction,
+                               .kind = LIGHT_DISTANT,
+                               .radiance = d->irradiance,
+                               .reach = static_cast<float>(1 / disk)});
             powers.push_back(mean(d->irradiance) * disk);
         } else if (const auto* p = std::get_if<PointLight>(&light.emitter)) {
-            records.push_back(
-                {.position = p->position - origin_, .kind = LIGHT_POINT, .radiance = p->intensity});
+            records.push_back({.position = p->position - origin_,
+                               .kind = LIGHT_POINT,
+                               .radiance = p->intensity,
+                               .reach = static_cast<float>(1 / (4 * pi))});
             powers.push_back(mean(p->intensity) * 4 * pi);
         } else if (const auto* s = std::get_if<SpotLight>(&light.emitter)) {
+            const double angle = 2 * pi * (1 - (s->cos_falloff_start + s->cos_total_width) / 2);
             records.push_back({.position = s->position - origin_,
                                .kind = LIGHT_SPOT,
                                .radiance = s->intensity,
                                .axis = s->axis,
                                .complement_start = static_cast<float>(1 - s->cos_falloff_start),
-                               .complement_width = static_cast<float>(1 - s->cos_total_width)});
-            powers.push_back(mean(s->intensity) * 2 * pi *
-                             (1 - (s->cos_falloff_start + s->cos_total_width) / 2));
+                               .complement_width = static_cast<float>(1 - s->cos_total_width),
+                               .reach = static_cast<float>(1 / angle)});
+            powers.push_back(mean(s->intensity) * angle);
         }
     }
     const std::size_t first_grid = records.size();
@@ -232,6 +238,7 @@ std::vector<LightRecord> Packer::lights() {
         if (light.total == 0) continue;
         grids.push_back(light);
         records.push_back({.kind = LIGHT_VOXELS, .primitive = light.texel});
+        set_voxel_reach(records.back(), light);
         powers.push_back(light.total * 4 * pi);
     }
     for (const Emitter& e : emitters_) {
@@ -241,6 +248,7 @@ std::vector<LightRecord> Packer::lights() {
         records.push_back({.kind = two_sided ? LIGHT_AREA_TWO_SIDED : LIGHT_AREA,
                            .radiance = e.radiance,
                            .primitive = e.primitive});
+        set_area_reach(records.back(), geometry_);
         powers.push_back(e.power);
     }
     const std::vector<AliasCell> cells = make_alias_table(powers);
@@ -252,9 +260,10 @@ std::vector<LightRecord> Packer::lights() {
     }
     tables_.push.alias_table = append(table, "light choice");
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        const double density = records[first_grid + i].probability / grids[i].total;
+        const double chance =
+            std::min(1.0, effects_.features.light_candidates * cells[first_grid + i].probability);
         tables_.texels[grids[i].density + GRID_LIGHT_DENSITY].w =
-            std::bit_cast<std::uint32_t>(static_cast<float>(density));
+            std::bit_cast<std::uint32_t>(static_cast<float>(chance / grids[i].total));
     }
     return records;
 }

@@ -225,7 +225,15 @@ VolumePacker::VoxelLight VolumePacker::pack_voxel_light(int index) {
                                   .voxels = append_(texels, "emitting voxels"),
                                   .count = static_cast<std::uint32_t>(table.size()),
                                   .total = static_cast<float>(total)};
-    return {append_(texels_of(record), "emitting voxels"), total, records_[index].density_record};
+    const glm::dvec3 extent = glm::dvec3(upper) - glm::dvec3(lower) + 1.0;
+    double size2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 edge = extent[axis] * glm::dvec3(render_from_index[axis]);
+        size2 += glm::dot(edge, edge) / 12;
+    }
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(lower) + glm::dvec3(upper));
+    return {append_(texels_of(record), "emitting voxels"), total, records_[index].density_record,
+            glm::vec3(render_from_index * glm::dvec4(middle, 1)), static_cast<float>(size2)};
 }
 
 std::vector<glm::vec4> make_blackbody_table() {

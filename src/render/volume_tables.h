@@ -32,6 +32,8 @@ class VolumePacker {
         std::uint32_t texel;   ///< Of its VoxelLightRecord.
         double total;          ///< VoxelLightRecord::total; 0 if it is none.
         std::uint32_t density; ///< Texel of its GridRecord.
+        glm::vec3 middle;      ///< Of the box around the voxels that emit.
+        float size2;           ///< Mean squared distance from there of what is in that box.
     };
     VoxelLight pack_voxel_light(int medium);
     VoxelData take_voxels() { return std::move(voxels_); }

@@ -180,7 +180,8 @@ class EffectListTest : public DeviceTest {};
 
 /// What is not in the table above would not be tested.
 TEST_F(EffectListTest, EachEffectIsTakenAwaySomewhere) {
-    std::set<std::string> tested{"roulette by reach of light", "boundaries in touch"}; // below
+    std::set<std::string> tested{"roulette by reach of light", "boundaries in touch",
+                                 "choice among lights"}; // below
     for (const Removal& removal : kRemovals)
         tested.insert(removal.effect);
     const Build& all = stock().build;
@@ -205,6 +206,23 @@ TEST_F(EffectListTest, RouletteByReachIsTakenAwayByASky) {
     EXPECT_EQ(without.value("roulette by reach of light"), "no");
     shared::Features taken = *features_without("roulette by reach of light", with.features);
     EXPECT_LT(count_of(taken).instructions, count_of(with.features).instructions);
+}
+
+TEST_F(EffectListTest, OneLightIsNotChosenAmongOthers) {
+    Scene scene = full_scene("emission of media");
+    scene.shapes.erase(std::remove_if(scene.shapes.begin(), scene.shapes.end(),
+                                      [](const Shape& s) { return s.area_light >= 0; }),
+                       scene.shapes.end());
+    scene.lights.clear();
+    add_light(scene, PointLight{Rgb(1), {1, 3, -2}});
+    const Build one(scene);
+    add_light(scene, PointLight{Rgb(1), {-1, 3, -2}});
+    const Build two(scene);
+    EXPECT_EQ(two.value("choice among lights"), "yes");
+    EXPECT_EQ(one.value("choice among lights"), "no");
+    EXPECT_TRUE(functions_of(two.features).count("light_importance")) << "no teeth";
+    EXPECT_FALSE(functions_of(one.features).count("light_importance"));
+    EXPECT_LT(count_of(one.features).instructions, count_of(two.features).instructions);
 }
 
 TEST_F(EffectListTest, BoundariesAreTakenApart) {

@@ -76,6 +76,32 @@ TEST_F(LightTest, AThousandPointLights) {
         16);
 }
 
+/// Power alone chooses without bias, too.
+TEST_F(LightTest, ChoiceByPlaceLeavesThePicture) {
+    Scene scene = dark_scene();
+    Scatter scatter;
+    for (int i = 0; i < 12; ++i) {
+        const int light = add_area_light(scene, scatter.point(glm::dvec3(1), glm::dvec3(9)));
+        add_shape(scene, full_sphere(0.15),
+                  {.material = black, .inside = 0, .outside = 0, .area_light = light},
+                  translation(scatter.point({-2, 1, -2}, {2, 2.8, 2})));
+    }
+    Effects effects = compute_effects(scene);
+    ASSERT_GE(effects.features.light_candidates, 12) << "no teeth";
+    const auto mean_with = [&](std::uint32_t candidates) {
+        effects.features.light_candidates = candidates;
+        Renderer renderer(context(), scene, effects, {});
+        renderer.render(0, 2048);
+        return mean_of(renderer.read_film());
+    };
+    Estimate by_place = mean_with(effects.features.light_candidates);
+    const Estimate by_power = mean_with(1);
+    EXPECT_LT(by_place.standard_error.y, by_power.standard_error.y);
+    by_place.standard_error =
+        glm::length(glm::dvec2(by_place.standard_error.y, by_power.standard_error.y)) * Rgb(1);
+    expect_mean(by_place, by_power.mean.y, 0.95 * by_power.mean.y);
+}
+
 TEST_F(LightTest, TwoHundredEmittingTriangles) {
     for (bool by_power : {false, true}) {
         expect_agreement(

@@ -140,6 +140,25 @@ TEST_F(SamePathsTest, OnSobolPoints) {
     }
 }
 
+TEST_F(SamePathsTest, AmongLightsOfAllKinds) {
+    Scene scene = smoke_stage(Rgb(0.5, 3, 20));
+    const int lamp = add_area_light(scene, {3, 2, 1}), pane = add_area_light(scene, Rgb(2), true);
+    Sphere cut = full_sphere(0.3);
+    cut.z_max = 0.1;
+    Mesh mesh = square_mesh(0.4, 0, -1);
+    mesh.patches = {{0, 1, 3, 2}};
+    for (int i = 0; i < 3; ++i) {
+        const glm::dmat4 place = translation({2.0 * i - 2, 2.5, 0.4 * i});
+        add_light(scene, PointLight{Rgb(2), {2.0 * i - 2, 1.5, -1}});
+        add_light(scene, SpotLight{Rgb(9), {2.0 * i - 2, 3, 0}, {0, -0.8, 0.6}, 0.9, 0.7});
+        add_shape(scene, Disk{0, 0.3}, {.material = black, .area_light = i == 1 ? pane : lamp},
+                  place);
+        add_shape(scene, cut, {.material = black, .area_light = lamp}, place);
+        add_shape(scene, mesh, {.material = black, .area_light = i == 1 ? lamp : pane}, place);
+    }
+    expect_same_paths(scene);
+}
+
 TEST_F(SamePathsTest, WithoutLightSampling) {
     Scene scene = smoke_stage(Rgb(0.5, 3, 20));
     scene.integrator.samples_lights = false;

@@ -26,7 +26,7 @@ inline constexpr std::array<ForcedEffect, 12> kForcedEffects{{
      [](shared::Features& f) { f.densities = 14, f.has_temperature = f.has_rgb_grids = 1; }},
     {"lens and limit", [](shared::Features& f) { f.has_lens = f.has_clamp = 1; }},
     {"boundaries in touch", [](shared::Features& f) { f.has_contacts = 1; }},
-    {"all lights", [](shared::Features& f) { f.lights = 31; }},
+    {"all lights", [](shared::Features& f) { f.lights = 31, f.light_candidates = 4; }},
 }};
 
 } // namespace tyndall::support
