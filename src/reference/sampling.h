@@ -30,19 +30,31 @@ struct RandomPath {
     std::uint32_t sample = 0;
     Sampler sampler = Sampler::independent;
     std::uint32_t zsobol_bits = 0; ///< Scene::zsobol_bits
+    /// From the end of this event's flight on, the path goes on as another sample would: two paths
+    /// with one beginning.
+    std::uint32_t branch_event = 0xFFFFFFFF;
 
     glm::uvec4 words(std::uint32_t event, std::uint32_t block) const {
-        if (sampler == Sampler::sobol && block <= shared::BLOCK_LIGHT)
-            return shared::sobol_block(seed, pixel, sample, event, block);
-        if (sampler == Sampler::zsobol && block <= shared::BLOCK_LIGHT)
-            return shared::zsobol_block(seed, pixel, sample, event, block, zsobol_bits);
-        return shared::random_block(seed, pixel, sample, event, block);
+        if (event < branch_event) return words_of(sample, event, block);
+        glm::uvec4 other = words_of(~sample, event, block);
+        if (event == branch_event && block == shared::BLOCK_PATH)
+            other.x = words_of(sample, event, block).x;
+        return other;
     }
 
     /// Of event 0: two for the place in the pixel, two for that on the lens.
     glm::uvec4 camera_words() const {
         const glm::uvec4 own = words(0, shared::BLOCK_PATH);
         return sampler == Sampler::independent ? own : shared::pairs_in_order(own);
+    }
+
+  private:
+    glm::uvec4 words_of(std::uint32_t index, std::uint32_t event, std::uint32_t block) const {
+        if (sampler == Sampler::sobol && block <= shared::BLOCK_LIGHT)
+            return shared::sobol_block(seed, pixel, index, event, block);
+        if (sampler == Sampler::zsobol && block <= shared::BLOCK_LIGHT)
+            return shared::zsobol_block(seed, pixel, index, event, block, zsobol_bits);
+        return shared::random_block(seed, pixel, index, event, block);
     }
 };
 
