@@ -150,10 +150,13 @@ void mesh_rays(benchmark::State& state) {
         embrees = std::min(embrees, cpu_of([&] { expected = embree.trace({0, 0}); }));
     }
     const std::vector<glm::vec4> got = device.distances();
+    // Ours is the distance to the plane of the triangle, Embree's that along its edges as seen from
+    // the origin: that is finer where the origin is close by, but not where vertices are far.
+    const auto tolerance = [](float distance) { return 1e-4F * distance + 2e-6F; };
     std::uint32_t different = 0;
     for (std::uint32_t i = 0; i < kRays; ++i)
         different +=
-            !(got[i].x == expected[i] || std::abs(got[i].x - expected[i]) < 1e-4F * expected[i]);
+            !(got[i].x == expected[i] || std::abs(got[i].x - expected[i]) < tolerance(expected[i]));
     state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
     state.counters["Mrays_per_second"] = kRays / ours * 1e-6;
     state.counters["embree_Mrays_per_second"] = kRays / embrees * 1e-6;
