@@ -71,9 +71,8 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
         const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
         if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
         ++p.event;
-    } else {
-        escape(p, camera);
     }
+    if (!collides) escape(p, camera); // no else: what neither way changes, it would select twice
 }
 
 /// Says what a turn of the loop leaves as it was, or to be set anew, so that the loop need not
