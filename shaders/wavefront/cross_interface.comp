@@ -15,18 +15,17 @@ void main() {
     const Hit hit = Hit(uintBitsToFloat(texel.x), texel.y, texel.z);
     const SurfacePoint s = surface_point(p.origin, p.direction, hit);
     const ShapeRecord shape = load_shape(s.shape);
-    if (has_closed_media != 0u && p.medium != VACUUM) {
+    const bool travels = has_closed_media != 0u && p.medium != VACUUM;
+    if (travels || log_capacity != 0u) {
         load_throughput(slot, p);
         load_radiance(slot, p);
+    }
+    if (travels) {
         travel(p, load_medium(p.medium), hit.t, false);
         store_throughput(slot, p);
         if (has_emission != 0u) store_radiance(slot, p);
     }
-    if (log_capacity != 0u) { // a vacuum needs them for nothing else
-        load_throughput(slot, p);
-        load_radiance(slot, p);
-        log_path(EVENT_INTERFACE, p, s.position, s.shape);
-    }
+    log_path(EVENT_INTERFACE, p, s.position, s.shape);
     p.origin = leave_surface(s, p.direction);
     p.medium = medium_beyond(shape, s, p.direction, p.medium);
     ++p.event;

@@ -1,4 +1,7 @@
 // Where the state of a path is between stages, and how its slot gets from stage to stage.
+//
+// A stage loads before it stores: within a dispatch, what is loaded through texels need not be what
+// was stored as words (seen on a GPU; a CPU has one cache for both).
 #ifndef TYNDALL_SLOTS_GLSL
 #define TYNDALL_SLOTS_GLSL
 
