@@ -64,6 +64,10 @@ TEST_F(VolumeTest, ChannelGridsAgreeWithTheReference) {
     expect_agreement(scene, 32, 0.04);
 }
 
+TEST_F(VolumeTest, ShadowRaysThroughTwoGridsMultiply) {
+    expect_mean(mean_of(scene_behind_two_grids(), 4096), kBehindTwoGrids, 1.05 * kBehindTwoGrids);
+}
+
 /// The middle of a grid that is 1 everywhere is the homogeneous medium: the slab tables of van de
 /// Hulst.
 Scene constant_slab(bool reflectance) {

@@ -124,25 +124,10 @@ TEST(Grid, SparseDensityIsIntegratedCellByCell) {
     EXPECT_GT(estimate.z(std::exp(-3.2 * 2 * 0.1)), reject);
 }
 
-/// A shadow ray through two grids, one after the other: what is left of a flight that ends in the
-/// first must not decide about the second.
 TEST(Grid, ShadowRaysThroughTwoGridsMultiply) {
-    Scene scene = empty_scene(8);
-    scene.integrator.max_depth = 1;
-    for (const double z : {2.0, 4.0}) {
-        const int medium = add_medium(scene, Rgb(0.5), Rgb(0.5));
-        scene.media.back().density =
-            Lattice{{-1e3, -1e3, z}, {1e3, 1e3, z + 1}, {4, 4, 4}}.density(one);
-        support::add_slab(scene, medium, z, z + 1);
-    }
-    add_shape(scene, support::square_mesh(10, 1, 1),
-              {.material = support::add_diffuse(scene, Rgb(0.5))});
-    support::add_light(scene, DistantLight{Rgb(1), {0, 0, -1}});
-    scene.camera.world_from_camera = support::look_at({0, 0, 1.5}, {0, 0, 0}, {0, 1, 0});
-    const Estimate estimate = image_mean(scene, 32, 100);
-    const double expected = 0.5 / pi * std::exp(-2.0);
-    EXPECT_LT(estimate.z(expected), pass) << estimate.mean.x / expected;
-    EXPECT_GT(estimate.z(1.05 * expected), reject);
+    const Estimate estimate = image_mean(support::scene_behind_two_grids(), 32, 100);
+    EXPECT_LT(estimate.z(support::kBehindTwoGrids), pass);
+    EXPECT_GT(estimate.z(1.05 * support::kBehindTwoGrids), reject);
 }
 
 /// No path may weigh more than 3: the bound of one-sample spectral MIS with three heroes.

@@ -65,4 +65,19 @@ void set_channel_grids(Medium& medium, const Lattice& lattice,
     medium.density = std::move(density);
 }
 
+Scene scene_behind_two_grids() {
+    Scene scene = empty_scene(8);
+    scene.integrator.max_depth = 1;
+    for (const double z : {2.0, 4.0}) {
+        const int medium = add_medium(scene, Rgb(0.5), Rgb(0.5));
+        scene.media.back().density = Lattice{{-1e3, -1e3, z}, {1e3, 1e3, z + 1}, {4, 4, 4}}.density(
+            [](const glm::ivec3&) { return 1.0; });
+        add_slab(scene, medium, z, z + 1);
+    }
+    add_shape(scene, square_mesh(10, 1, 1), {.material = add_diffuse(scene, Rgb(0.5))});
+    add_light(scene, DistantLight{Rgb(1), {0, 0, -1}});
+    scene.camera.world_from_camera = look_at({0, 0, 1.5}, {0, 0, 0}, {0, 1, 0});
+    return scene;
+}
+
 } // namespace tyndall::support

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+#include <cmath>
 #include <functional>
 
 namespace tyndall::support {
@@ -28,5 +29,11 @@ struct Lattice {
 void set_channel_grids(Medium& medium, const Lattice& lattice,
                        const std::function<Rgb(const glm::ivec3&)>& sigma_a,
                        const std::function<Rgb(const glm::ivec3&)>& sigma_s);
+
+/// A wall that is lit squarely through two grids, one after the other: what is left of a flight
+/// that ends in the first must not decide about the second.
+Scene scene_behind_two_grids();
+/// The radiance of the wall.
+inline const double kBehindTwoGrids = 0.5 / 3.14159265358979323846 * std::exp(-2.0);
 
 } // namespace tyndall::support
