@@ -21,6 +21,11 @@
 // Where a light is chosen among n candidates, word 0 draws the first of them, and the same word
 // i / n of its range further on draws another; the low eight bits of words 1, 2 and 3 choose.
 //
+// Light that is looked for on a segment that a path passes without a collision
+// (wavefront/passing.glsl) has an event of its own, n | EVENT_PASSING for the segment of event n:
+// BLOCK_LIGHT 0: choice of light, 1: place on the segment. The low eight bits of word 3 of
+// BLOCK_PATH of event n, which roulette leaves, say whether the path looks for any.
+//
 // In a march each step is an event: BLOCK_PATH 0: place in the step; 1, 2: direction of scattering
 // towards the environment; BLOCK_LIGHT as above, with 3: whether the environment is asked.
 //
@@ -51,6 +56,19 @@ TYNDALL_CONSTANT float ROULETTE_SCALE = 2.0f;
 /// Transmittance of a medium below which ratio tracking goes on for some of the shadow rays alone,
 /// with this: what is left is little light, and most of the way.
 TYNDALL_CONSTANT float SHADOW_ROULETTE = 0.1f;
+
+// Of 256 paths that pass a segment without a collision, how many look for light there: this many
+// per optical depth of scattering, but some at least, as a light may be near; fewer late on a path,
+// as where paths are long, media are dense or light is everywhere; and none where there is so much
+// of the medium that hardly any path passes.
+TYNDALL_CONSTANT float LOOKOUTS_PER_DEPTH = 1024.0f;
+TYNDALL_CONSTANT float LOOKOUTS_MIN = 32.0f;
+TYNDALL_CONSTANT float LOOKOUTS_MAX = 256.0f;
+TYNDALL_CONSTANT float LOOKOUT_DEPTH_MAX = 4.0f;
+TYNDALL_CONSTANT uint LATE_EVENT = 8u; // from the next on,
+TYNDALL_CONSTANT float LATE_SHARE = 0.5f;
+
+TYNDALL_CONSTANT uint EVENT_PASSING = 0x40000000u; // above all limits of events
 
 TYNDALL_CONSTANT uint BLOCK_PATH = 0u;
 TYNDALL_CONSTANT uint BLOCK_LIGHT = 1u;

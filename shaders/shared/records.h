@@ -279,7 +279,8 @@ TYNDALL_CONSTANT uint QUEUE_ROUGH_DIELECTRIC = 7u;
 TYNDALL_CONSTANT uint QUEUE_CONDUCTOR = 8u; // stand at smooth metal
 TYNDALL_CONSTANT uint QUEUE_ROUGH_CONDUCTOR = 9u;
 TYNDALL_CONSTANT uint QUEUE_EMITTER = 10u; // have a surface that emits at the end of their segment
-TYNDALL_CONSTANT uint QUEUE_COUNT = 11u;
+TYNDALL_CONSTANT uint QUEUE_PASSING = 11u; // pass light in a medium without a collision
+TYNDALL_CONSTANT uint QUEUE_COUNT = 12u;
 
 /// Arguments of vkCmdDispatchIndirect.
 struct DispatchSize {
@@ -321,11 +322,13 @@ TYNDALL_CONSTANT uint PATH_RADIANCE =
     3u; // radiance rgb | density of the last direction per steradian
 TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of piece, weight
 TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the piece: weight * radiance, weight
-// Ticket, pixel, slot of the piece in the window | distance to the surface (EMITTER queue)
+// Ticket, pixel, slot of the piece in the window | distance to the surface (EMITTER queue; and, if
+// there are emitters, collisions that passing.glsl weighs)
 TYNDALL_CONSTANT uint PATH_TICKET = 6u;
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
-// Distance to the end of the segment, primitive and instance there | distance before the segment
+// Distance to the end of the segment, primitive and instance there | distance before the segment.
+// Of collisions that passing.glsl weighs, not the primitive, but how far away it is.
 TYNDALL_CONSTANT uint PATH_HIT = 8u;
 // Tracking: how far it has come along the segment | what is left of its flight | unused. March:
 // steps done | optical depth rgb.

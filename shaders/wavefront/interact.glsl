@@ -3,6 +3,7 @@
 #define TYNDALL_INTERACT_GLSL
 
 #include "wavefront/light_sampling.glsl"
+#include "wavefront/passing.glsl"
 #include "wavefront/path.glsl"
 #include "wavefront/phases.glsl"
 #include "wavefront/region.glsl"
@@ -89,12 +90,15 @@ void roulette(inout Path p, float reach, uint word) {
 }
 
 /// Light that the path gets at its origin, in a medium, from a light that it chooses, if nothing is
-/// in between.
-LightSample light_in_medium(Path p, Medium medium) {
-    LightSample light = sample_light(p, p.origin, draw(p, BLOCK_LIGHT));
+/// in between. It collided there at distance t of the segment.
+LightSample light_in_medium(Path p, Medium medium, Segment segment, float t) {
+    LightRecord chosen;
+    LightSample light = sample_light(p, p.origin, draw(p, BLOCK_LIGHT), chosen);
     const vec3 value = evaluate_phase(medium, p.direction, light.direction);
     const float pdf = phase_density(value, p.r);
-    const float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
+    float mis = light.pdf > 0.0 ? power_heuristic(light.pdf, pdf) : 1.0;
+    if (has_equiangular != 0u && !is_black(light.radiance))
+        mis *= collision_weight(segment, medium, chosen, t);
     light.radiance *= p.throughput * (value * mis);
     return light;
 }

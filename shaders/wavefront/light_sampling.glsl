@@ -240,11 +240,22 @@ bool light_place(LightRecord light, float u, float v, out vec3 place) {
     return light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
 }
 
+/// Light from a point or spot light, which light sampling chose; none exactly where it is.
+void look_at_light(LightRecord light, vec3 from, inout LightSample s) {
+    const vec3 to = light.position - from;
+    s.distance = length(to);
+    if (s.distance == 0.0) return;
+    s.direction = to / s.distance;
+    s.radiance = light.radiance / (light.probability * s.distance * s.distance);
+    if ((lights & LIGHTS_SPOT) != 0u && light.kind == LIGHT_SPOT)
+        s.radiance *= falloff_towards(light, s.direction);
+}
+
 /// Draws a light and a direction to it from `from`; `words` are those of BLOCK_LIGHT of the path's
 /// event. Radiance is 0 if it does not shine here.
-LightSample sample_light(Path p, vec3 from, uvec4 words) {
+LightSample sample_light(Path p, vec3 from, uvec4 words, out LightRecord light) {
     float weight;
-    const LightRecord light = choose_light(from, words, weight);
+    light = choose_light(from, words, weight);
     LightSample s = LightSample(vec3(0, 0, 1), INFINITY, vec3(0), 0.0, NONE);
     if ((lights & LIGHTS_VOXELS) != 0u && light.kind == LIGHT_VOXELS) {
         sample_voxel_light(light, from, draw_random(p, BLOCK_EMISSION), s);
@@ -255,19 +266,17 @@ LightSample sample_light(Path p, vec3 from, uvec4 words) {
         s.direction = -light.position;
         s.radiance = light.radiance / light.probability;
     } else if ((lights & (LIGHTS_POINT | LIGHTS_SPOT)) != 0u) {
-        const vec3 to = light.position - from;
-        s.distance = length(to);
-        s.direction = to / s.distance;
-        s.radiance = light.radiance / (light.probability * s.distance * s.distance);
-        if ((lights & LIGHTS_SPOT) != 0u && light.kind == LIGHT_SPOT) {
-            s.radiance *= falloff_towards(light, s.direction);
-        }
+        look_at_light(light, from, s);
     }
     if (light_candidates != 1u) {
         s.radiance *= weight;
         s.pdf *= mis_probability(light) / light.probability;
     }
     return s;
+}
+LightSample sample_light(Path p, vec3 from, uvec4 words) {
+    LightRecord light;
+    return sample_light(p, from, words, light);
 }
 
 #endif

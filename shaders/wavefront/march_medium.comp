@@ -53,12 +53,8 @@ Steps plan(Path p, float t0, float t1, uvec4 words) {
     if (march == MARCH_EQUIANGULAR && lights != 0u && !asks_environment(words)) {
         vec3 place;
         if (light_place(load_light(draw_light(words.x)), unit_float(words.y), unit_float(words.z),
-                        place)) {
-            const vec3 to = place - p.origin;
-            const float nearest = dot(to, p.direction);
-            const float offset = length(to - nearest * p.direction);
-            return equiangular_steps(t0, t1, count, nearest, offset);
-        }
+                        place))
+            return steps_about(place, p.origin, p.direction, t0, t1, count);
     }
     return equal_steps(t0, t1, count);
 }

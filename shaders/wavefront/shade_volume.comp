@@ -13,13 +13,18 @@ void main() {
     load_throughput(slot, p);
     load_radiance(slot, p);
     load_sample(slot, p);
-    const float t = uintBitsToFloat(load_path(PATH_HIT, slot).x);
+    const uvec4 hit = load_path(PATH_HIT, slot);
+    const float t = uintBitsToFloat(hit.x);
     const Medium medium = load_medium(p.medium);
+    uint reach = hit.y;
+    if (has_equiangular != 0u && has_emitters != 0u) reach = load_path(PATH_TICKET, slot).w;
+    const Segment segment = segment_of(p, uintBitsToFloat(reach));
     travel(p, medium, t, true);
     p.origin += t * p.direction;
     log_path(EVENT_COLLISION, p);
     if (p.status == STATUS_RAY && may_scatter(p)) {
-        if (lights != 0u) cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium));
+        if (lights != 0u)
+            cast_shadow_ray(slot, p.origin, p.medium, light_in_medium(p, medium, segment, t));
         scatter_in_medium(p, medium, draw(p, BLOCK_PATH));
     }
     ++p.event;

@@ -5,7 +5,7 @@
 // Finds where the segment of each path ends: at the nearest surface, or before it by a collision in
 // the medium (free flight).
 //
-//   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue, and EMITTER queue
+//   ray -> VOLUME | SURFACE | INTERFACE | TRACK | ENDED queue, and EMITTER and PASSING queues
 
 /// Whether light sampling has it for a light.
 bool is_emitter(uint primitive) {
@@ -34,10 +34,14 @@ void main() {
                     queue = QUEUE_TRACK;
                 } else if (march == MARCH_NONE) {
                     load_sample(slot, p);
+                    const uvec4 words = draw(p, BLOCK_PATH);
                     const float column =
-                        flight_distance(medium, p.hero, exponential_variate(draw(p, BLOCK_PATH).x));
+                        flight_distance(medium, p.hero, exponential_variate(words.x));
                     const float flight = distance_of_column(medium, p.origin, p.direction, column);
-                    if (flight < hit.t) {
+                    const bool collides = flight < hit.t;
+                    if (!collides && looks_in_passing(p, medium, surface.t, words.w))
+                        enqueue(QUEUE_PASSING, slot);
+                    if (collides) {
                         hit.t = flight;
                         queue = QUEUE_VOLUME;
                     }
@@ -49,7 +53,11 @@ void main() {
             enqueue(QUEUE_EMITTER, slot);
         }
         store_path_word(PATH_HIT, 0u, slot, floatBitsToUint(hit.t));
-        store_path_word(PATH_HIT, 1u, slot, hit.primitive);
+        const bool has_reach = has_equiangular != 0u && queue == QUEUE_VOLUME; // passing.glsl
+        if (has_reach && has_emitters != 0u)
+            store_path_word(PATH_TICKET, 3u, slot, floatBitsToUint(surface.t));
+        const bool is_reach = has_reach && has_emitters == 0u;
+        store_path_word(PATH_HIT, 1u, slot, is_reach ? floatBitsToUint(surface.t) : hit.primitive);
         if ((primitives & PRIMITIVE_INSTANCES) != 0u)
             store_path_word(PATH_HIT, 2u, slot, hit.instance);
     }

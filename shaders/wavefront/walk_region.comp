@@ -8,16 +8,29 @@
 //
 //   ray -> ray, radiance
 
-/// Scatters a path that collided at its origin, in the light that reaches it there.
-void scatter(inout Path p, Medium medium, uvec4 words) {
-    if (lights != 0u) {
-        const LightSample light = light_in_medium(p, medium);
-        const vec3 added = light.radiance *
-                           region_transmittance(p.origin, light.direction, light.distance, medium);
-        contribute(p, added);
-        if (!is_black(light.radiance)) log_light(p, p.origin, light.direction, p.medium, added);
-    }
+/// Adds what a light gives to the path at a place in the region.
+void add_light(inout Path p, vec3 place, Medium medium, LightSample light) {
+    const vec3 added =
+        light.radiance * region_transmittance(place, light.direction, light.distance, medium);
+    contribute(p, added);
+    if (!is_black(light.radiance)) log_light(p, place, light.direction, p.medium, added);
+}
+
+/// Scatters a path that collided at its origin, at t of its segment, in the light that reaches it
+/// there.
+void scatter(inout Path p, Medium medium, Segment segment, float t, uvec4 words) {
+    if (lights != 0u) add_light(p, p.origin, medium, light_in_medium(p, medium, segment, t));
     scatter_in_medium(p, medium, words);
+}
+
+/// Looks for light on a segment that the path passes without a collision.
+void look_in_passing(inout Path p, Medium medium, float t_end, uint word) {
+    if (!looks_in_passing(p, medium, t_end, word)) return;
+    Path at = p;
+    const LightSample light = light_in_passing(at, medium, t_end);
+    p.event |= EVENT_PASSING; // for the log
+    add_light(p, at.origin, medium, light);
+    p.event &= ~EVENT_PASSING;
 }
 
 /// Logs a crossing of the region's boundary, which is an event as it is where there is a hierarchy.
@@ -64,12 +77,14 @@ void advance(inout Path p, CameraRecord camera, Medium medium) {
         has_collisions ? flight_distance(medium, p.hero, exponential_variate(words.x)) : INFINITY;
     const bool collides = flight < boundary;
     const float t = min(flight, boundary);
+    const Segment segment = segment_of(p, boundary);
+    if (has_equiangular != 0u && hits && !collides) look_in_passing(p, medium, boundary, words.w);
     if (hits) travel(p, medium, t, collides);
     if (geometry != GEOMETRY_NONE || collides) p.origin += t * p.direction;
     if (collides) {
         log_path(EVENT_COLLISION, p);
         const bool is_absorbed = is_analog != 0u && p.status != STATUS_RAY;
-        if (!is_absorbed && may_scatter(p)) scatter(p, medium, words);
+        if (!is_absorbed && may_scatter(p)) scatter(p, medium, segment, t, words);
         ++p.event;
     }
     if (!collides) escape(p, camera); // no else: what neither way changes, it would select twice

@@ -38,6 +38,7 @@ class LightChoice {
 
     /// By its power alone.
     std::uint32_t draw(std::uint32_t word) const { return table_.choose(word); }
+    double draw_probability(std::size_t light) const { return table_.probability(light); }
     bool empty() const { return table_.empty(); }
     /// That a light is chosen where it is near, which is how multiple importance sampling takes it.
     double mis_probability(std::size_t light) const;

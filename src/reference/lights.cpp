@@ -64,6 +64,27 @@ double spot_angle(const SpotLight& light) {
            ((1 - light.cos_falloff_start) + (light.cos_falloff_start - light.cos_total_width) / 2);
 }
 
+/// The part of [0, end] of a line that is in the cone of a spot light, its mirror image left out.
+/// `from` is its origin as seen from the light.
+std::pair<double, double> part_in_cone(const SpotLight& light, const dvec3& from,
+                                       const dvec3& direction, double end) {
+    // (x . axis)^2 >= cos^2 |x|^2 with x = from + t direction: a t^2 + 2 b t + c <= 0
+    const double cos2 = light.cos_total_width * light.cos_total_width;
+    const double height = glm::dot(from, light.axis), rise = glm::dot(direction, light.axis);
+    const double a = cos2 - rise * rise, b = cos2 * glm::dot(from, direction) - height * rise;
+    const double c = cos2 * glm::dot(from, from) - height * height;
+    const double root = std::sqrt(std::max(0.0, b * b - a * c));
+    const double lower = (-b - root) / a, upper = (-b + root) / a;
+    if (std::abs(a) < 1e-4 * cos2) return {0, end}; // as on the device
+    if (a > 0) {
+        if (height - rise * b / a < 0) return {0, 0};
+        return {std::max(0.0, lower), std::min(end, upper)};
+    }
+    // A line this steep comes in once and stays, or was in and leaves.
+    if (rise > 0) return {std::max(0.0, lower), end};
+    return {0, std::min(end, upper)};
+}
+
 LightSample sample_point(const dvec3& position, const dvec3& place, const Rgb& intensity) {
     const dvec3 offset = position - place;
     const double squared = glm::dot(offset, offset);
@@ -187,7 +208,24 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
                                           const glm::uvec4& voxel_words) const {
     const std::optional<LightChoice::Choice> choice = choice_.choose(place, words);
     if (!choice) return std::nullopt;
-    const Emitter& emitter = emitters_[choice->light];
+    auto sample = sample_emitter(choice->light, place, words, voxel_words);
+    if (!sample) return std::nullopt;
+    sample->radiance *= choice->weight;
+    sample->probability *= choice_.mis_probability(choice->light);
+    return sample;
+}
+
+std::optional<LightSample> Lights::sample_drawn(std::uint32_t light, const dvec3& place,
+                                                const glm::uvec4& words) const {
+    auto sample = sample_emitter(light, place, words, words);
+    if (sample) sample->probability *= choice_.draw_probability(light);
+    return sample;
+}
+
+std::optional<LightSample> Lights::sample_emitter(std::uint32_t light, const dvec3& place,
+                                                  const glm::uvec4& words,
+                                                  const glm::uvec4& voxel_words) const {
+    const Emitter& emitter = emitters_[light];
     std::optional<LightSample> sample;
     if (const auto* distant = std::get_if<DistantLight>(&emitter)) {
         sample = LightSample{distant->irradiance, -distant->direction, std::nullopt, 1, true};
@@ -203,9 +241,21 @@ std::optional<LightSample> Lights::sample(const dvec3& place, const glm::uvec4& 
         sample = sample_area(area, place, unit(words.y), unit(words.z));
     }
     if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
-    sample->radiance *= choice->weight;
-    sample->probability *= choice_.mis_probability(choice->light);
+    sample->light = light;
     return sample;
+}
+
+std::optional<Steps> Lights::lit_part(std::uint32_t light, const Ray& ray, double end) const {
+    const auto* point = std::get_if<PointLight>(&emitters_[light]);
+    const auto* spot = std::get_if<SpotLight>(&emitters_[light]);
+    if (!point && !spot) return std::nullopt;
+    const dvec3 from = ray.origin + camera_position_ - (point ? point->position : spot->position);
+    std::pair<double, double> part{0, end};
+    if (spot && spot->cos_total_width > 0.1) part = part_in_cone(*spot, from, ray.direction, end);
+    if (!(part.first < part.second)) return std::nullopt;
+    const double nearest = -glm::dot(from, ray.direction);
+    const double offset = glm::length(from + nearest * ray.direction);
+    return Steps(part.first, part.second, 1, nearest, offset);
 }
 
 std::optional<dvec3> Lights::place(const glm::uvec4& words) const {

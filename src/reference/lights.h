@@ -3,6 +3,7 @@
 
 #include "reference/geometry.h"
 #include "reference/light_choice.h"
+#include "reference/march.h"
 #include "scene/emitting_voxels.h"
 
 namespace tyndall::reference {
@@ -18,6 +19,7 @@ struct LightSample {
     bool is_delta;
     /// The light is emission in this medium, and not there where another one is; -1: of none.
     int medium = -1;
+    std::uint32_t light = 0; ///< Which it is.
 };
 
 /// Infinite lights are constant: paths find them by escaping, and they are not sampled. The others
@@ -37,6 +39,16 @@ class Lights {
     /// the point of a grid. None if it does not shine there.
     std::optional<LightSample> sample(const dvec3& place, const glm::uvec4& words,
                                       const glm::uvec4& voxel_words) const;
+
+    /// The light that a word draws by power.
+    std::uint32_t draw(std::uint32_t word) const { return choice_.draw(word); }
+    /// A point of the light that was drawn. Not for grids.
+    std::optional<LightSample> sample_drawn(std::uint32_t light, const dvec3& place,
+                                            const glm::uvec4& words) const;
+
+    /// Where a point or spot light may shine on [0, end] of a ray, as one step of equal angle; none
+    /// if nowhere, or of another kind of light. `end` is finite.
+    std::optional<Steps> lit_part(std::uint32_t light, const Ray& ray, double end) const;
 
     /// A point of the light that the words choose; none if it is at infinity, or a grid.
     std::optional<dvec3> place(const glm::uvec4& words) const;
@@ -77,6 +89,10 @@ class Lights {
     void add_surface(const Scene& scene, std::uint32_t index);
     LightReach reach_of(const AreaEmitter& light) const;
     std::uint32_t area_light_index(const PrimitiveId& id) const;
+    /// With a probability that leaves out the choice of the light.
+    std::optional<LightSample> sample_emitter(std::uint32_t light, const dvec3& place,
+                                              const glm::uvec4& words,
+                                              const glm::uvec4& voxel_words) const;
     std::optional<LightSample> sample_area(const AreaEmitter& light, const dvec3& place, double u1,
                                            double u2) const;
     std::optional<LightSample> sample_grid(const GridEmitter& light, const dvec3& place,

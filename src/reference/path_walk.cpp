@@ -38,9 +38,11 @@ bool PathTracer::Walk::step() {
             march(*line, end);
             return is_left() && arrive(hit);
         }
+        const std::optional<Passage> passed = passage(*line, end);
         const auto collision = line->is_tracked() ? track(*line, end) : fly(*line, end);
         if ((line->is_tracked() || tracer_.is_analog_) && !is_left()) return false;
-        if (collision) return collide(line->medium, *collision);
+        if (collision) return collide(line->medium, *collision, passed);
+        if (passed) look_in_passing(*passed);
     }
     return arrive(hit);
 }
@@ -54,7 +56,8 @@ bool PathTracer::Walk::arrive(const std::optional<SurfaceHit>& hit) {
     return meet(*hit);
 }
 
-bool PathTracer::Walk::collide(const Medium& medium, double distance) {
+bool PathTracer::Walk::collide(const Medium& medium, double distance,
+                               const std::optional<Passage>& passage) {
     at_.ray.origin += distance * at_.ray.direction;
     log(Kind::collision, at_.ray.origin);
     if (!may_scatter()) return false;
@@ -69,6 +72,9 @@ bool PathTracer::Walk::collide(const Medium& medium, double distance) {
             [&](const dvec3& to_light) { return respond(phases, throughput_, travel, to_light); },
             [&](const dvec3& to_light) {
                 return Start{{at_.ray.origin, to_light}, at_.in};
+            },
+            [&](std::uint32_t light) {
+                return passage ? collision_weight(*passage, light, distance) : 1;
             });
         const Rgb value = evaluate_phase(phases, angle.one_minus_cosine);
         remember(at_.ray.origin, mean_density(value, throughput_));
@@ -120,7 +126,8 @@ bool PathTracer::Walk::scatter(const SurfaceHit& hit, const Material& material) 
             [&](const dvec3& to_light) {
                 return bsdf.respond(wo, glm::transpose(frame) * to_light);
             },
-            [&](const dvec3& to_light) { return leave_surface(hit, to_light, at_.in); });
+            [&](const dvec3& to_light) { return leave_surface(hit, to_light, at_.in); },
+            [](std::uint32_t) { return 1; });
     }
     const double lobe = unit(random_.words(event_, shared::BLOCK_LIGHT).w);
     const auto scattering = bsdf.sample(wo, {unit(words_.y), unit(words_.z), lobe});

@@ -56,6 +56,23 @@ class PathTracer::Walk {
         return true;
     }
 
+    /// A segment on which light is looked for if the path passes it without a collision.
+    struct Passage {
+        const Medium& medium;
+        Ray ray;
+        double end;        ///< May be infinite.
+        Throughput before; ///< At its start.
+    };
+    std::optional<Passage> passage(const MediumLine& line, double end) const;
+    /// Density with which paths collide at distance t, averaged over the heroes.
+    static double collision_density(const Passage& passage, double t);
+    /// Likewise of choosing it in passing, given the light.
+    double passing_density(const Passage& passage, std::uint32_t light, double t) const;
+    /// MIS weight of light that a path gets from a collision.
+    double collision_weight(const Passage& passage, std::uint32_t light, double t) const;
+    /// Light from one place on a segment that the path passes, dense where a light is near.
+    void look_in_passing(const Passage& passage);
+
     /// One segment and what happens at its end. Returns whether the path goes on.
     bool step();
 
@@ -96,7 +113,9 @@ class PathTracer::Walk {
 
     void add_scattered(const LightSample& light, const dvec3& place, const Rgb& weight);
 
-    bool collide(const Medium& medium, double distance);
+    /// @param passage  In which it happens, if it is weighed against light that is found in
+    /// passing.
+    bool collide(const Medium& medium, double distance, const std::optional<Passage>& passage);
 
     Rgb weighted_emission(const SurfaceHit& hit) const;
 
@@ -109,17 +128,19 @@ class PathTracer::Walk {
     bool scatter(const SurfaceHit& hit, const Material& material);
 
     /// Direct light at a scattering event: respond(to_light) is its Response, start(to_light) the
-    /// Start of the shadow ray.
-    template<class Respond, class Leave>
-    void sample_light(const dvec3& place, Respond&& respond_to, Leave&& start) {
+    /// Start of the shadow ray, and delta_weight(index of light) the weight of lights that nothing
+    /// runs into.
+    template<class Respond, class Leave, class Weigh>
+    void sample_light(const dvec3& place, Respond&& respond_to, Leave&& start,
+                      Weigh&& delta_weight) {
         if (!tracer_.samples_lights_) return;
         const auto light = tracer_.lights_.sample(place, random_.words(event_, shared::BLOCK_LIGHT),
                                                   random_.words(event_, shared::BLOCK_EMISSION));
         if (!light) return;
         const Response response = respond_to(light->direction);
         if (response.value == Rgb(0)) return;
-        const double weight =
-            light->is_delta ? 1 : mis_weight(light->probability, response.density);
+        const double weight = light->is_delta ? delta_weight(light->light)
+                                              : mis_weight(light->probability, response.density);
         const Rgb unoccluded =
             throughput_.beta * response.value * light->radiance * (weight / light->probability);
         if (unoccluded == Rgb(0)) return;

@@ -19,6 +19,7 @@ void no_surface(Features& f) {
 template<std::uint32_t kind>
 void no_light(Features& f) {
     f.lights &= ~kind;
+    if (!(f.lights & (LIGHTS_POINT | LIGHTS_SPOT))) f.has_equiangular = 0;
 }
 void no_hot_grids(Features& f) {
     f.has_temperature = 0;
@@ -33,7 +34,7 @@ void no_chromatic_media(Features& f) {
     f.has_chromatic_phases = 0;
 }
 void no_scattering(Features& f) {
-    f.has_scattering = f.phases = f.has_mixtures = f.has_delta_phases = 0;
+    f.has_scattering = f.phases = f.has_mixtures = f.has_delta_phases = f.has_equiangular = 0;
     no_chromatic_media(f);
 }
 void no_grids(Features& f) {
@@ -80,7 +81,7 @@ const Entry kEntries[] = {
     {"chromatic phases", [](Features& f) { f.has_chromatic_phases = 0; }},
     {"delta phases", [](Features& f) { f.has_delta_phases = 0; }},
     {"spectral MIS", [](Features& f) { f.is_chromatic = f.has_dispersion = 0; }},
-    {"media in closed form", [](Features& f) { f.has_closed_media = 0; }},
+    {"media in closed form", [](Features& f) { f.has_closed_media = f.has_equiangular = 0; }},
     {"grids", no_grids, {"brick tables", "grids", "majorants", "voxels"}},
     {"black body emission", [](Features& f) { f.has_temperature = 0; }, {"black body"}},
     {"exponential atmospheres",
@@ -93,6 +94,7 @@ const Entry kEntries[] = {
     {"point lights", no_light<LIGHTS_POINT>},
     {"spot lights", no_light<LIGHTS_SPOT>},
     {"choice among lights", [](Features& f) { f.light_candidates = 1; }},
+    {"equiangular sampling", [](Features& f) { f.has_equiangular = 0; }},
     {"roulette by reach of light", [](Features& f) { f.has_lit_ball = 0; }, {"lit ball"}},
     {"depth of field", [](Features& f) { f.has_lens = 0; }},
     {"radiance limit", [](Features& f) { f.has_clamp = 0; }},

@@ -69,7 +69,7 @@ class Collector {
     Effects effects_;
     bool has_isotropic_phases_ = false;
     std::string emitter_by_, phases_by_, dispersion_by_, grid_by_, atmosphere_by_, temperature_by_,
-        closed_by_;
+        closed_by_, thin_by_; ///< thin: a homogeneous medium that scatters
 };
 
 std::string place(const char* what, const SourceLocation& where) {
@@ -212,6 +212,7 @@ void Collector::collect_media() {
         if (!is_black(m.sigma_s)) {
             f.has_scattering = 1, scattering_by = by;
             collect_phases(m, by);
+            if (m.is_homogeneous()) thin_by_ = by;
             if ((!is_grey(m.sigma_s) && !marches) || is_chromatic(m.phases))
                 f.is_chromatic = 1, chromatic_by = by;
         }
@@ -285,6 +286,9 @@ void Collector::collect_lights() {
     f.light_candidates = f.lights ? light_candidates(scene_) : 1;
     if (f.has_scattering) effects_.lit_ball = find_lit_ball(scene_);
     f.has_lit_ball = effects_.lit_ball.has_value();
+    f.has_equiangular = f.lights & (LIGHTS_POINT | LIGHTS_SPOT) && !thin_by_.empty() &&
+                        scene_.integrator.kind == Integrator::Kind::volpath &&
+                        scene_.integrator.absorption == Integrator::Absorption::expected;
     add("environment", f.has_environment, environment_by);
     add_value("light sampling", f.lights ? "on" : "off");
     add("area lights", lights & LIGHTS_AREA, emitter_by_);
@@ -293,6 +297,8 @@ void Collector::collect_lights() {
     add("point lights", lights & LIGHTS_POINT, point_by);
     add("spot lights", lights & LIGHTS_SPOT, spot_by);
     add("choice among lights", f.light_candidates > 1, "more lights than one");
+    add("equiangular sampling", f.has_equiangular,
+        fmt::format("{} in {}", spot_by.empty() ? point_by : spot_by, thin_by_));
     add("roulette by reach of light", f.has_lit_ball, "a medium without end");
 }
 

@@ -2,6 +2,7 @@
 
 #include "render/renderer.h"
 #include "shared/event_records.h"
+#include "shared/random.h"
 
 #include <algorithm>
 #include <tuple>
@@ -29,16 +30,22 @@ int scene_medium(const Scene& scene, std::uint32_t record) {
     return record == VACUUM ? -1 : static_cast<int>(record % scene.media.size());
 }
 
-/// Order within an event: light arrives after the path has gone on, or ended.
+std::uint32_t event_of(const EventRecord& record) {
+    return record.event & ~EVENT_PASSING;
+}
+
+/// Order within an event: light on the way comes first, and light at the end arrives after the path
+/// has gone on, or ended.
 int rank(const EventRecord& record) {
     const std::uint32_t kind = record.kind_and_medium >> 16;
+    if (record.event & EVENT_PASSING) return -1;
     return kind < EVENT_LIGHT ? 0 : kind == EVENT_LIGHT ? 1 : 2;
 }
 
 /// Puts a log into the order of events, and gives an end the light that arrived after it.
 void sort_events(std::vector<EventRecord>& log) {
     std::stable_sort(log.begin(), log.end(), [](const EventRecord& a, const EventRecord& b) {
-        return std::tuple(a.event, rank(a)) < std::tuple(b.event, rank(b));
+        return std::tuple(event_of(a), rank(a)) < std::tuple(event_of(b), rank(b));
     });
     for (std::size_t i = 1; i < log.size(); ++i)
         if (rank(log[i]) == 2 && rank(log[i - 1]) == 1 && log[i].event == log[i - 1].event)
@@ -62,7 +69,7 @@ Replay replay_path(const gpu::Context& context, const Scene& scene, int x, int y
     const std::vector<const Shape*> shapes = record_shapes(scene);
     for (const EventRecord& record : log.events)
         replay.events.push_back({.kind = static_cast<PathEvent::Kind>(record.kind_and_medium >> 16),
-                                 .event = record.event,
+                                 .event = event_of(record),
                                  .position = camera + glm::dvec3(record.position),
                                  .direction = record.direction,
                                  .medium = scene_medium(scene, record.kind_and_medium & 0xFFFFu),

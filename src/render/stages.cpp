@@ -8,6 +8,7 @@
 #include "spirv/shade_conductor.h"
 #include "spirv/shade_dielectric.h"
 #include "spirv/shade_emitter.h"
+#include "spirv/shade_segment.h"
 #include "spirv/shade_surface.h"
 #include "spirv/shade_volume.h"
 #include "spirv/trace_segment.h"
@@ -48,6 +49,9 @@ bool casts_shadows(const Features& f) {
 bool sees_emitters(const Features& f) {
     return has_hierarchy(f) && f.has_emitters;
 }
+bool looks_in_passing(const Features& f) {
+    return has_hierarchy(f) && f.has_equiangular;
+}
 template<std::uint32_t queue>
 bool has_surface(const Features& f) {
     return has_hierarchy(f) && f.surface_queues >> queue & 1u;
@@ -56,11 +60,12 @@ bool has_surface(const Features& f) {
 constexpr StageInput slots = StageInput::slots, queue = StageInput::queue;
 
 /// This list is the renderer.
-const std::array<StageKind, 16> kStages{{
+const std::array<StageKind, 17> kStages{{
     {"walk_region", walk_region_spirv, slots, 0, has_no_hierarchy},
 
     {"trace_segment", trace_segment_spirv, slots, 0, has_hierarchy},
     {"shade_emitter", shade_emitter_spirv, queue, QUEUE_EMITTER, sees_emitters},
+    {"shade_segment", shade_segment_spirv, queue, QUEUE_PASSING, looks_in_passing},
     {"track_medium", track_medium_spirv, queue, QUEUE_TRACK, tracks_media},
     {"march_medium", march_medium_spirv, queue, QUEUE_TRACK, marches_media},
     {"shade_volume", shade_volume_spirv, queue, QUEUE_VOLUME, collides_in_media},

@@ -95,6 +95,9 @@ BENCHMARK_CAPTURE(fused_paths, smoke_grid, "device/pbrt/smoke-grid")
 BENCHMARK_CAPTURE(fused_paths, fog_room, "device/pbrt/fog-room")
     ->Name("fused_ratio/fog-room")
     ->Iterations(3);
+BENCHMARK_CAPTURE(fused_paths, lantern, "bench/lantern")
+    ->Name("fused_ratio/lantern")
+    ->Iterations(3);
 BENCHMARK_CAPTURE(fused_paths, materials, "bench/materials")
     ->Name("fused_ratio/materials")
     ->Iterations(3);

@@ -8,6 +8,7 @@
 #include "fused_stages/shade_emitter.glsl"
 #include "fused_stages/shade_rough_conductor.glsl"
 #include "fused_stages/shade_rough_dielectric.glsl"
+#include "fused_stages/shade_segment.glsl"
 #include "fused_stages/shade_surface.glsl"
 #include "fused_stages/shade_volume.glsl"
 #include "fused_stages/trace_segment.glsl"
@@ -32,6 +33,7 @@ void main() {
         steps_walked = 0u;
         trace_segment();
         if (has_emitters != 0u) shade_emitter();
+        if (has_equiangular != 0u) shade_segment();
         if ((densities & DENSITY_BITS_TRACKED) != 0u) track_medium();
         if (has_scattering != 0u) shade_volume();
         if (is_met(QUEUE_SURFACE)) shade_surface();

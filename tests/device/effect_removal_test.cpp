@@ -119,6 +119,7 @@ const std::vector<Removal> kRemovals{
     {"distant lights", {}},
     {"point lights", {}},
     {"spot lights", {"spot_falloff"}},
+    {"equiangular sampling", {"collision_weight", "light_in_passing"}},
     {"depth of field", {}},
     {"radiance limit", {}},
 };

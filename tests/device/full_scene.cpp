@@ -72,6 +72,7 @@ class FullScene {
         if (has("media in closed form")) {
             Medium* plain = add_ball({-1.2, 0.6, -1});
             plain->phases = phases();
+            if (!has("equiangular sampling")) plain->density = air_above({-1.2, 0.6, -1});
             if (!has("interfaces")) {
                 plain->sigma_a = 0.02 * plain->sigma_a, plain->sigma_s = 0.02 * plain->sigma_s;
                 return;
@@ -79,21 +80,22 @@ class FullScene {
         }
         if (has("grids")) add_grid(*add_ball({0, 0.6, -1}), {0, 0.6, -1});
         if (has("exponential atmospheres") && has("media in closed form")) {
-            ExponentialDensity density;
-            density.scale_height = 0.3;
-            density.origin = {0, 1.6, 0};
-            density.up = {0, 1, 0};
-            add_ball({0, 1.6, 0})->density = density;
+            Medium* air = add_ball({0, 1.6, 0});
+            air->density = air_above({0, 1.6, 0});
+            if (has("delta phases")) air->phases = {henyey_greenstein(1)}; // not in mixtures
         }
+    }
+
+    static ExponentialDensity air_above(const glm::dvec3& origin) {
+        return {.origin = origin, .up = {0, 1, 0}, .scale_height = 0.3};
     }
 
     std::vector<PhaseFunction> phases() const {
         const bool is_chromatic = has("chromatic phases") && has("spectral MIS");
         const PhaseFunction table = is_chromatic ? mie({3, 4, 5}, 1.4) : mie(4, 1.4);
-        const PhaseFunction straight = henyey_greenstein(has("delta phases") ? 1 : 0.9);
         if (!has("mixtures of phases")) return {table};
         return {weighted(0.5, table), weighted(0.2, rayleigh()), weighted(0.2, schlick(0.6)),
-                weighted(0.1, straight)};
+                weighted(0.1, henyey_greenstein(0.9))};
     }
 
     void add_grid(Medium& medium, const glm::dvec3& center) const {
