@@ -1,14 +1,10 @@
-/// What it gains to choose among lights by what they bring to a place: the square error of an image
-/// times CPU time, without the choice over with it.
-#include "bench/bench.h"
+/// What it gains to choose among lights by what they bring to a place.
+#include "bench/gain.h"
 #include "bench/made_scenes.h"
 
-#include <algorithm>
 #include <array>
 #include <benchmark/benchmark.h>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
 namespace tyndall::bench {
 namespace {
@@ -48,24 +44,6 @@ Scene with_mesh_lamp() {
     return scene;
 }
 
-struct Cost {
-    double cpu = std::numeric_limits<double>::max();
-    double error = 0; ///< Square.
-};
-
-/// Renders with two seeds: half the square of the difference is that of the error of each.
-void add_round(Renderer& renderer, std::uint64_t seed, Cost& cost) {
-    std::array<Image, 2> films;
-    for (std::size_t i = 0; i < 2; ++i) {
-        renderer.set_seed(seed + i);
-        cost.cpu = std::min(cost.cpu, cpu_of([&] { renderer.render(0, kSamples); }));
-        films[i] = renderer.read_film();
-    }
-    for (std::size_t i = 0; i < films[0].pixels.size(); i += 6)
-        for (std::size_t c = i; c < i + 3; ++c)
-            cost.error += std::pow(double{films[0].pixels[c]} - films[1].pixels[c], 2);
-}
-
 struct Subject {
     const char* label;
     Scene (*make)();
@@ -90,19 +68,8 @@ void light_choice(benchmark::State& state) {
     Renderer choosing(context(), scene, effects, {});
     effects.features.light_candidates = 1;
     Renderer plain(context(), scene, effects, {});
-    plain.render(0, 1);
-    choosing.render(0, 1);
-    Cost without, with;
-    std::uint64_t seed = 0;
-    for (auto _ : state) {
-        add_round(plain, seed, without);
-        add_round(choosing, seed, with);
-        seed += 2;
-    }
+    report_gain(state, plain, choosing, kSamples);
     state.SetLabel(subject.label);
-    state.counters["variance"] = without.error / with.error;
-    state.counters["cpu"] = with.cpu / without.cpu;
-    state.counters["gain"] = without.error * without.cpu / (with.error * with.cpu);
 }
 BENCHMARK(light_choice)
     ->DenseRange(0, int(kSubjects.size()) - 1)

@@ -1,6 +1,6 @@
 /// What splitting paths where they first scatter could gain at best: the variance of pixels that
 /// the place of it decides (between) and that of what follows (within), by the reference; and the
-/// CPU time of the device before and after.
+/// time of the device before and after.
 ///
 /// With n goes from each such place, an estimate has the variance between + within / n and takes
 /// before + n after. What both gain together is a bound: to keep the place, and to go back to it,
@@ -94,8 +94,8 @@ void measure_work(Scene scene, Split& split) {
     double least_whole = std::numeric_limits<double>::max();
     split.before = least_whole;
     for (int i = 0; i < 4; ++i) {
-        least_whole = std::min(least_whole, cpu_of([&] { whole.render(0, 64); }));
-        split.before = std::min(split.before, cpu_of([&] { beginning.render(0, 64); }));
+        least_whole = std::min(least_whole, cost_of([&] { whole.render(0, 64); }));
+        split.before = std::min(split.before, cost_of([&] { beginning.render(0, 64); }));
     }
     split.after = least_whole - split.before;
 }
