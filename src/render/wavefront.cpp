@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <fmt/format.h>
+#include <future>
 
 namespace tyndall {
 namespace {
@@ -96,13 +97,19 @@ void Wavefront::retune(const Tuning& tuning) {
     if (features_ != before) build_stages();
 }
 
+/// All at once: drivers take long for each, even out of a cache.
 void Wavefront::build_stages() {
+    std::vector<std::future<BuiltStage>> building;
+    for (const StageKind& kind : kinds_)
+        if (kind.is_called_for(features_))
+            building.push_back(std::async(std::launch::async, [this, &kind] {
+                return BuiltStage{&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
+                                                    kind.features(features_))};
+            }));
     stages_.clear();
-    for (const StageKind& kind : kinds_) {
-        if (!kind.is_called_for(features_)) continue;
-        stages_.push_back({&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,
-                                             kind.features(features_))});
-        if (kind.input == StageInput::once) schedule_ = stages_.size() - 1;
+    for (std::future<BuiltStage>& stage : building) {
+        stages_.push_back(stage.get());
+        if (stages_.back().kind->input == StageInput::once) schedule_ = stages_.size() - 1;
     }
 }
 
