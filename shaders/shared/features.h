@@ -102,9 +102,8 @@ TYNDALL_SHARED_END
     X(40, zsobol_bits, 4)  /* Scene::zsobol_bits */                                                \
     X(41, has_delta_phases, 1) /* some phase function is as good as a delta (lib/phase.glsl) */    \
     X(42, has_closed_media, 1) /* some medium has transmittance in closed form: not all tracked */ \
-    X(43, light_candidates,                                                                        \
-      4) /* drawn by power, to choose among by place; 1: power alone decides */                    \
-    X(44, has_equiangular, 1) /* light is looked for on segments that paths pass, too */
+    X(43, light_candidates, 4) /* drawn by power, one is taken by place; 1: power alone decides */ \
+    X(44, has_equiangular, 1)  /* light is looked for on segments that paths pass, too */
 
 #ifdef __cplusplus
 namespace tyndall::shared {

@@ -203,7 +203,7 @@ struct LightRecord {
     vec3 axis;         ///< spot: where it shines; area: its mean normal, 0 for spheres
     uint primitive;    ///< area: index into the primitives; voxels: texel of the VoxelLightRecord
     float complement_start; ///< spot: 1 - cos of the angle up to which it is at full intensity,
-                            ///< area: share of importance that no direction has more of.
+                            ///< area: share of importance that every direction has.
     float complement_width; ///< spot: 1 - cos of the angle from which there is none.
     float reach;            ///< Importance over power, times squared distance unless distant.
     float size2;            ///< Added to the squared distance from its middle.
@@ -322,13 +322,12 @@ TYNDALL_CONSTANT uint PATH_RADIANCE =
     3u; // radiance rgb | density of the last direction per steradian
 TYNDALL_CONSTANT uint PATH_SAMPLE = 4u; // x | y << 16 in the picture, sample, end of piece, weight
 TYNDALL_CONSTANT uint PATH_SUM = 5u;    // sum over the piece: weight * radiance, weight
-// Ticket, pixel, slot of the piece in the window | distance to the surface (EMITTER queue; and, if
-// there are emitters, collisions that passing.glsl weighs)
+// Ticket, pixel, slot of the piece in the window | distance to the surface (EMITTER queue, and
+// collisions that passing.glsl weighs)
 TYNDALL_CONSTANT uint PATH_TICKET = 6u;
 // The rest is there only as far as a scene needs it (render/stages.h).
 TYNDALL_CONSTANT uint PATH_SPECTRAL = 7u; // ratios r rgb (chromatic media) | unused
-// Distance to the end of the segment, primitive and instance there | distance before the segment.
-// Of collisions that passing.glsl weighs, not the primitive, but how far away it is.
+// Distance to the end of the segment, primitive and instance there | distance before the segment
 TYNDALL_CONSTANT uint PATH_HIT = 8u;
 // Tracking: how far it has come along the segment | what is left of its flight | unused. March:
 // steps done | optical depth rgb.

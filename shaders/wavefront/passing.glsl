@@ -65,10 +65,14 @@ float mean_of_heroes(vec3 r, vec3 density) {
     return is_chromatic != 0u ? mean(r * density) : density.x;
 }
 
+/// Density with which paths collide at t.
+float collision_density(Segment segment, Medium medium, float t) {
+    return mean_of_heroes(segment.r, medium.sigma_s * attenuation(medium.sigma_s, t));
+}
+
 /// Density with which paths come upon a place on the segment, in either way.
 float density_on(Segment segment, Medium medium, Steps lit, float t) {
-    const float collision =
-        mean_of_heroes(segment.r, medium.sigma_s * attenuation(medium.sigma_s, t));
+    const float collision = collision_density(segment, medium, t);
     if (!(t >= lit.t0 && t <= lit.t1)) return collision;
     const float passing = mean_of_heroes(segment.r, attenuation(medium.sigma_s, segment.t_end)) *
                           float(lookouts(medium, segment.t_end, segment.event)) / LOOKOUTS_MAX;
@@ -78,9 +82,8 @@ float density_on(Segment segment, Medium medium, Steps lit, float t) {
 /// MIS weight of light that a path gets at a collision at t.
 float collision_weight(Segment segment, Medium medium, LightRecord light, float t) {
     if (!is_small(light) || lookouts(medium, segment.t_end, segment.event) == 0u) return 1.0;
-    const float collision =
-        mean_of_heroes(segment.r, medium.sigma_s * attenuation(medium.sigma_s, t));
-    return collision / density_on(segment, medium, lit_part(light, segment), t);
+    return collision_density(segment, medium, t) /
+           density_on(segment, medium, lit_part(light, segment), t);
 }
 
 /// Light that a path finds on a segment that it passes, if nothing is in between; the path goes to

@@ -13,12 +13,11 @@ void main() {
     load_throughput(slot, p);
     load_radiance(slot, p);
     load_sample(slot, p);
-    const uvec4 hit = load_path(PATH_HIT, slot);
-    const float t = uintBitsToFloat(hit.x);
+    const float t = uintBitsToFloat(load_path(PATH_HIT, slot).x);
     const Medium medium = load_medium(p.medium);
-    uint reach = hit.y;
-    if (has_equiangular != 0u && has_emitters != 0u) reach = load_path(PATH_TICKET, slot).w;
-    const Segment segment = segment_of(p, uintBitsToFloat(reach));
+    float reach = INFINITY;
+    if (has_equiangular != 0u) reach = uintBitsToFloat(load_path(PATH_TICKET, slot).w);
+    const Segment segment = segment_of(p, reach);
     travel(p, medium, t, true);
     p.origin += t * p.direction;
     log_path(EVENT_COLLISION, p);

@@ -48,16 +48,12 @@ void main() {
                 }
             }
         }
-        if (has_emitters != 0u && is_emitter(surface.primitive)) {
-            store_path_word(PATH_TICKET, 3u, slot, floatBitsToUint(surface.t));
-            enqueue(QUEUE_EMITTER, slot);
-        }
+        const bool emits = has_emitters != 0u && is_emitter(surface.primitive);
+        const bool is_weighed = has_equiangular != 0u && queue == QUEUE_VOLUME; // passing.glsl
+        if (emits) enqueue(QUEUE_EMITTER, slot);
+        if (emits || is_weighed) store_path_word(PATH_TICKET, 3u, slot, floatBitsToUint(surface.t));
         store_path_word(PATH_HIT, 0u, slot, floatBitsToUint(hit.t));
-        const bool has_reach = has_equiangular != 0u && queue == QUEUE_VOLUME; // passing.glsl
-        if (has_reach && has_emitters != 0u)
-            store_path_word(PATH_TICKET, 3u, slot, floatBitsToUint(surface.t));
-        const bool is_reach = has_reach && has_emitters == 0u;
-        store_path_word(PATH_HIT, 1u, slot, is_reach ? floatBitsToUint(surface.t) : hit.primitive);
+        store_path_word(PATH_HIT, 1u, slot, hit.primitive);
         if ((primitives & PRIMITIVE_INSTANCES) != 0u)
             store_path_word(PATH_HIT, 2u, slot, hit.instance);
     }

@@ -1,4 +1,4 @@
-/// What the importance of a light at a place depends on (shaders/wavefront/light_sampling.glsl).
+/// What the importance of a light at a place depends on (shaders/wavefront/light_choice.glsl).
 #pragma once
 
 #include "render/geometry_tables.h"

@@ -2,6 +2,7 @@
 
 #include "scene/reader.h"
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <sys/resource.h>
@@ -21,6 +22,12 @@ double device_seconds() {
     if (context().info().type == "cpu") return cpu_seconds();
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration<double>(now).count();
+}
+
+Image render_timed(Renderer& renderer, std::uint64_t seed, std::uint32_t samples, double& seconds) {
+    renderer.set_seed(seed);
+    seconds = std::min(seconds, cost_of([&] { renderer.render(0, samples); }));
+    return renderer.read_film();
 }
 
 gpu::Context& context() {

@@ -28,6 +28,9 @@ double cost_of(const Work& work) {
     return device_seconds() - start;
 }
 
+/// The film by a seed; `seconds` becomes what it cost, if that is less.
+Image render_timed(Renderer& renderer, std::uint64_t seed, std::uint32_t samples, double& seconds);
+
 /// The first usable device; made by the first call.
 gpu::Context& context();
 

@@ -1,6 +1,5 @@
 #include "bench/gain.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,11 +15,8 @@ struct Cost {
 /// Renders with two seeds: half the square of the difference is that of the error of each.
 void add_round(Renderer& renderer, std::uint64_t seed, std::uint32_t samples, Cost& cost) {
     std::array<Image, 2> films;
-    for (std::size_t i = 0; i < 2; ++i) {
-        renderer.set_seed(seed + i);
-        cost.seconds = std::min(cost.seconds, cost_of([&] { renderer.render(0, samples); }));
-        films[i] = renderer.read_film();
-    }
+    for (std::size_t i = 0; i < 2; ++i)
+        films[i] = render_timed(renderer, seed + i, samples, cost.seconds);
     for (std::size_t i = 0; i < films[0].pixels.size(); i += 6)
         for (std::size_t c = i; c < i + 3; ++c)
             cost.error += std::pow(double{films[0].pixels[c]} - films[1].pixels[c], 2) / 2;

@@ -65,9 +65,7 @@ struct Cost {
 void add_round(Renderer& renderer, std::uint64_t seed, std::uint32_t samples, Cost& cost) {
     std::array<Image, 2> films;
     for (std::size_t i = 0; i < 2; ++i) {
-        renderer.set_seed(seed + i);
-        cost.seconds = std::min(cost.seconds, cost_of([&] { renderer.render(0, samples); }));
-        films[i] = renderer.read_film();
+        films[i] = render_timed(renderer, seed + i, samples, cost.seconds);
         if (const auto error = renderer.error())
             cost.stated += error->relative_rmse * error->relative_rmse / 2;
     }
