@@ -25,7 +25,7 @@ set(rules
   "src/main.cpp  | core/ cli/"
   "shaders/shared    | health.h interop.h records.h sample_histogram.h"
   "shaders/lib       | shared/ lib/"
-  "shaders/wavefront | shared/ lib/ wavefront/.*glsl"
+  "shaders/wavefront | shared/ lib/ wavefront/.*glsl fused_stages/"
   "shaders/selftest  | shared/ lib/ wavefront/scene.glsl")
 
 set(libraries

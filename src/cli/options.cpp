@@ -37,6 +37,12 @@ void add_device_options(CLI::App& app, DeviceOptions& o) {
                    "Most events per path and dispatch (does not change the image)");
     app.add_option("--workgroup", o.tuning.workgroup_size,
                    "Invocations per workgroup (does not change the image)");
+    app.add_option("--stages", o.tuning.stages,
+                   "What paths go through in a round: one kernel or many (does not change the "
+                   "image)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, std::uint32_t>{
+                                                {"fused", STAGES_FUSED}, {"apart", STAGES_APART}})
+                        .description("fused or apart"));
 }
 
 void add_render(CLI::App& app, RenderOptions& o, int& status) {

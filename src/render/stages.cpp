@@ -2,6 +2,7 @@
 
 #include "gpu/specialize.h"
 #include "spirv/cross_interface.h"
+#include "spirv/fused_paths.h"
 #include "spirv/march_medium.h"
 #include "spirv/next_sample.h"
 #include "spirv/schedule.h"
@@ -59,6 +60,9 @@ bool has_surface(const Features& f) {
 
 constexpr StageInput slots = StageInput::slots, queue = StageInput::queue;
 
+const StageKind kSchedule{"schedule", schedule_spirv, StageInput::once, 0, always};
+const StageKind kUpdateFilm{"update_film", update_film_spirv, StageInput::folds, 0, always};
+
 /// This list is the renderer.
 const std::array<StageKind, 17> kStages{{
     {"walk_region", walk_region_spirv, slots, 0, has_no_hierarchy},
@@ -83,14 +87,21 @@ const std::array<StageKind, 17> kStages{{
     {"trace_shadow", trace_shadow_spirv, queue, QUEUE_SHADOW, casts_shadows},
     {"next_sample", next_sample_spirv, queue, QUEUE_ENDED, has_hierarchy},
 
-    {"schedule", schedule_spirv, StageInput::once, 0, always},
-    {"update_film", update_film_spirv, StageInput::folds, 0, always},
+    kSchedule,
+    kUpdateFilm,
 }};
+
+const std::array<StageKind, 3> kFusedStages{
+    {{"fused_paths", fused_paths_spirv, slots, 0, has_hierarchy}, kSchedule, kUpdateFilm}};
 
 } // namespace
 
 std::span<const StageKind> stage_kinds() {
     return kStages;
+}
+
+std::span<const StageKind> fused_stage_kinds() {
+    return kFusedStages;
 }
 
 std::uint32_t path_texels(const Features& features) {

@@ -38,6 +38,10 @@ struct StageKind {
 /// All stages, in the order in which a round runs those that the scene calls for.
 std::span<const StageKind> stage_kinds();
 
+/// Those of a round of which all that paths go through is one kernel: for scenes with a hierarchy,
+/// through which paths do not march.
+std::span<const StageKind> fused_stage_kinds();
+
 /// Texels of state that a path in flight needs: PATH_* below are used, those from it on are not.
 std::uint32_t path_texels(const shared::Features& features);
 

@@ -26,8 +26,13 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     const bool is_cpu = context.info().type == "cpu";
     const bool has_hierarchy = features.geometry == GEOMETRY_BVH;
     if (tuning.workgroup_size == 0) tuning.workgroup_size = 64;
-    if (tuning.slots == 0) tuning.slots = is_cpu ? (has_hierarchy ? 16384 : 4096) : 1u << 18;
     if (tuning.run_length == 0) tuning.run_length = has_hierarchy ? 64 : 256;
+    // SwiftShader takes gigabytes for kernels with several walks through a hierarchy.
+    const bool can_fuse = has_hierarchy && features.march == MARCH_NONE &&
+                          !context.info().driver.starts_with("SwiftShader");
+    if (tuning.stages == 0 || !can_fuse) tuning.stages = STAGES_APART;
+    const bool has_queues = has_hierarchy && tuning.stages == STAGES_APART;
+    if (tuning.slots == 0) tuning.slots = is_cpu ? (has_queues ? 16384 : 4096) : 1u << 18;
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
     // The state of paths is written as storage (shared/bindings.h).
@@ -79,7 +84,9 @@ void Wavefront::allocate_paths() {
     push_.run_length = tuning_.run_length;
     const std::uint64_t slots = tuning_.slots;
     const bool has_hierarchy = features_.geometry == GEOMETRY_BVH;
-    paths_ = {*context_, "paths", slots * path_texels(features_) * 16, {.texels = true}};
+    const std::uint32_t texels =
+        tuning_.stages == STAGES_FUSED ? PATH_GROUPS : path_texels(features_);
+    paths_ = {*context_, "paths", slots * texels * 16, {.texels = true}};
     queues_ = {*context_, "queues", has_hierarchy ? slots * QUEUE_COUNT * 4 : 16, {}};
     descriptors_.emplace(
         *context_,
@@ -92,15 +99,16 @@ void Wavefront::allocate_paths() {
 
 void Wavefront::retune(const Tuning& tuning) {
     const shared::Features before = features_;
+    const std::uint32_t stages_before = tuning_.stages;
     tuning_ = choose_tuning(*context_, features_, tuning);
     allocate_paths();
-    if (features_ != before) build_stages();
+    if (features_ != before || tuning_.stages != stages_before) build_stages();
 }
 
 /// All at once: drivers take long for each, even out of a cache.
 void Wavefront::build_stages() {
     std::vector<std::future<BuiltStage>> building;
-    for (const StageKind& kind : kinds_)
+    for (const StageKind& kind : tuning_.stages == STAGES_FUSED ? fused_stage_kinds() : kinds_)
         if (kind.is_called_for(features_))
             building.push_back(std::async(std::launch::async, [this, &kind] {
                 return BuiltStage{&kind, gpu::Stage(*context_, *descriptors_, kind.name, kind.spirv,

@@ -3,7 +3,6 @@
 #include "bench/fused_cube.h"
 #include "spirv/bare_region.h"
 #include "spirv/bare_unwatched.h"
-#include "spirv/fused_paths.h"
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
@@ -71,22 +70,11 @@ BENCHMARK_CAPTURE(bare_cube, unwatched, bare_unwatched_spirv)
     ->Name("bare_ratio/unwatched")
     ->Iterations(6);
 
-/// The stages of the wavefront in one kernel (fused_paths.comp), and what completes a round.
-std::vector<StageKind> fused_stages() {
-    std::vector<StageKind> stages{
-        {"fused_paths", fused_paths_spirv, StageInput::slots, 0, [](const auto&) { return true; }}};
-    for (const StageKind& kind : stage_kinds())
-        if (kind.input == StageInput::once || kind.input == StageInput::folds)
-            stages.push_back(kind);
-    return stages;
-}
-
 /// Against all stages in one kernel.
 void fused_paths(benchmark::State& state, const std::string& name) {
     const Scene scene = read_bench_scene(name, kSize);
-    const std::vector<StageKind> stages = fused_stages();
     Renderer renderer(context(), scene);
-    Renderer fused(context(), scene, compute_effects(scene), {.slots = 4096}, stages); // its best
+    Renderer fused(context(), scene, {.slots = 4096, .stages = STAGES_FUSED}); // its best
     compare(state, 64, renderer, fused);
 }
 BENCHMARK_CAPTURE(fused_paths, smoke_grid, "device/pbrt/smoke-grid")

@@ -86,7 +86,7 @@ orders() {
 
 same_seed() {
   expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o a.exr
-  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o b.exr --slots 128 --workgroup 32 --run-length 3
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 7 -o b.exr --slots 128 --workgroup 32 --run-length 3 --stages fused
   expect 0 render "$scenes/fog-room.pbrt" $small --spp 4 --seed 8 -o c.exr
   idiff -q -fail 0 a.exr b.exr >out 2>err || fail "same seed, other picture"
   ! idiff -q -fail 0 a.exr c.exr >out 2>err || fail "other seed, same picture" # control

@@ -1,5 +1,6 @@
 // What must not change the picture: units, place, and how the work is cut up.
 #include "device/device_test.h"
+#include "device/full_scene.h"
 #include "device/test_scenes.h"
 
 #include <cmath>
@@ -83,6 +84,22 @@ TEST_F(InvarianceTest, PathsInFlightAndTheirGrouping) {
             EXPECT_EQ(render_sums(scene, 0, 5, {.workgroup_size = size}), sums)
                 << "workgroups of " << size;
     }
+}
+
+TEST_F(InvarianceTest, StagesInOneKernel) {
+    if (context().info().driver.starts_with("SwiftShader"))
+        GTEST_SKIP() << "takes gigabytes for such a kernel";
+    for (const Scene& scene : {full_scene(), busy_scene()}) {
+        Renderer fused(context(), scene, {.run_length = 3, .stages = STAGES_FUSED});
+        EXPECT_EQ(fused.wavefront().stages().size(), 3u); // the kernel, schedule and update_film
+        fused.render(0, 9);
+        const Sums sums = fused.read_sums();
+        EXPECT_EQ(render_sums(scene, 0, 9, {.stages = STAGES_APART}), sums);
+        EXPECT_NE(render_sums(scene, 0, 8, {.stages = STAGES_APART}), sums); // the control
+    }
+    // Where there is nothing to fuse, nothing is.
+    const Renderer plain(context(), plain_scene(), {.stages = STAGES_FUSED});
+    EXPECT_EQ(plain.wavefront().tuning().stages, STAGES_APART);
 }
 
 TEST_F(InvarianceTest, PartsOfThePicture) {

@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "fused_slots.glsl"
+// First, in place of slots.glsl:
+#include "wavefront/fused_slots.glsl"
+
 #include "fused_stages/cross_interface.glsl"
 #include "fused_stages/next_sample.glsl"
 #include "fused_stages/shade_conductor.glsl"
@@ -15,11 +17,11 @@
 #include "fused_stages/trace_shadow.glsl"
 #include "fused_stages/track_medium.glsl"
 
-// The bar for the wavefront in scenes with a hierarchy: its own stages in one kernel, which keeps
-// paths in registers. A turn of the loop does what a round of the wavefront does, and the image is
-// the same to the last bit.
+// The stages of scenes with a hierarchy in one kernel, which keeps paths in registers
+// (Tuning::stages). A turn of the loop does what a round of them does, and the image is the same to
+// the last bit. Faster where paths are alike, slower where they wait for each other.
 //
-//   ray -> ray, batches
+//   ray -> ray, pieces
 
 bool is_met(uint queue) {
     return (surface_queues >> queue & 1u) != 0u;
