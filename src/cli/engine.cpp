@@ -1,5 +1,6 @@
 #include "cli/engine.h"
 
+#include "cli/interrupt.h"
 #include "core/error.h"
 #include "reference/reference.h"
 #include "render/calibration.h"
@@ -29,10 +30,17 @@ json effects_json(const Effects& effects) {
 Tuning find_tuning(const gpu::Context& context, const Scene& scene, const DeviceOptions& options) {
     const std::string key = tuning_key(compute_effects(scene).features);
     const TuningFile file(gpu::default_cache_folder(), context.info());
-    if (options.calibrate) file.store(key, calibrate(context, scene, options.tuning));
+    if (options.calibrate) {
+        const auto start = std::chrono::steady_clock::now();
+        file.store(key, calibrate(context, scene, options.tuning, [&] {
+                       return !was_interrupted() &&
+                              std::chrono::steady_clock::now() - start < kCalibrationTime;
+                   }));
+    }
     const Tuning found = file.find(key).value_or(Tuning{});
     Tuning tuning = options.tuning;
-    for (const auto value : {&Tuning::slots, &Tuning::run_length, &Tuning::workgroup_size})
+    for (const auto value :
+         {&Tuning::stages, &Tuning::slots, &Tuning::run_length, &Tuning::workgroup_size})
         if (tuning.*value == 0) tuning.*value = found.*value;
     return tuning;
 }
@@ -72,7 +80,8 @@ void DeviceEngine::describe(json& stats) const {
     stats["device"] = {{"name", info.name}, {"driver", info.driver}, {"type", info.type}};
     stats["tuning"] = {{"slots", tuning.slots},
                        {"run_length", tuning.run_length},
-                       {"workgroup_size", tuning.workgroup_size}};
+                       {"workgroup_size", tuning.workgroup_size},
+                       {"stages", tuning.stages == STAGES_FUSED ? "fused" : "apart"}};
     stats["effects"] = effects_json(renderer_.effects());
     stats["seconds"]["build"] = renderer_.build_seconds();
     stats["seconds"]["compile"] = renderer_.compile_seconds();

@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "render/renderer.h"
 
+#include <chrono>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 
@@ -34,6 +35,9 @@ class Engine {
     /// Messages of the validation layer.
     virtual std::uint32_t validation_messages() const { return 0; }
 };
+
+/// What --calibrate takes, about.
+constexpr std::chrono::seconds kCalibrationTime{30};
 
 /// The engine that the options ask for. The scene must outlive it.
 std::unique_ptr<Engine> make_engine(const Scene& scene, const DeviceOptions& options);

@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace tyndall::cli {
 namespace {
@@ -259,16 +260,25 @@ void Job::choose_outputs() {
 }
 
 int Job::run() {
+    if (options_.device.calibrate && options_.device.device == "reference")
+        throw Error(ExitStatus::bad_input, "--calibrate: the reference has nothing to tune");
     scene_ = load_scene(options_.scene, options_.quiet);
     report_.seconds.scene = seconds_since(start_);
     choose_outputs();
     limits_ = limits();
+    watch_interrupts();
+    if (options_.device.calibrate && !options_.quiet)
+        std::fprintf(stderr, "calibrating for about %d seconds\n", int(kCalibrationTime.count()));
     engine_ = make_engine(scene_, options_.device);
     if (!options_.quiet)
         std::fprintf(stderr, "%s: %d x %d on %s\n", options_.scene.scene.c_str(),
                      scene_.film.bounds.width(), scene_.film.bounds.height(),
                      engine_->device_text().c_str());
-    watch_interrupts();
+    if (options_.device.calibrate && !options_.quiet) {
+        nlohmann::json found;
+        engine_->describe(found);
+        std::fprintf(stderr, "fastest with %s\n", found["tuning"].dump().c_str());
+    }
     line_ = std::make_unique<ProgressLine>(options_.quiet);
     render_start_ = last_write_ = last_asked_ = Clock::now();
     engine_->render(0, limits_.end_samples, [&](const Progress& p) { return keep_going(p); });

@@ -5,14 +5,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace tyndall {
 
-/// Tries slots, run lengths and workgroup sizes on the middle of the picture, each for tenths of a
-/// second, and returns the fastest; some seconds altogether. What is not 0 in `fixed` stays.
-Tuning calibrate(const gpu::Context& context, Scene scene, const Tuning& fixed);
+/// Tries stages, slots, run lengths and workgroup sizes on the middle of the picture, each for
+/// tenths of a second or more in the midst of a render, and returns the fastest.
+/// @param fixed    What is not 0 stays.
+/// @param goes_on  Asked often: false ends the trials, and what was found by then counts.
+Tuning calibrate(const gpu::Context& context, Scene scene, const Tuning& fixed,
+                 const std::function<bool()>& goes_on);
 
 /// Scenes that the same tuning serves: those with the same effects.
 std::string tuning_key(const shared::Features& scene);

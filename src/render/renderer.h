@@ -54,7 +54,10 @@ class Renderer {
                          const KeepGoing& keep_going = {});
 
     /// Cuts the work up in another way from the next render on.
-    void retune(const Tuning& tuning) { wavefront_.retune(tuning); }
+    void retune(const Tuning& tuning) {
+        wavefront_.retune(tuning);
+        rounds_ = 1;
+    }
 
     /// The film as it is; may be called from KeepGoing. Channels R G B variance.R variance.G
     /// variance.B; the variance is that of the mean, 0 while there are fewer than two batches, and

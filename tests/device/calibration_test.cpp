@@ -23,13 +23,15 @@ class TuningFileTest : public testing::Test {
     void write(const std::string& text) const { std::ofstream(folder_ / "tunings.json") << text; }
 
     fs::path folder_ = fs::temp_directory_path() / ("tyndall-tunings-" + std::to_string(getpid()));
-    const Tuning tuning_{.slots = 1000, .run_length = 20, .workgroup_size = 32};
+    const Tuning tuning_{
+        .slots = 1000, .run_length = 20, .workgroup_size = 32, .stages = STAGES_APART};
 };
 
 TEST_F(TuningFileTest, FindsWhatWasStoredForTheDeviceAndTheKindOfScene) {
     EXPECT_EQ(file().find("fog"), std::nullopt); // there is no file
     file().store("fog", tuning_);
-    file().store("smoke", {.slots = 2000, .run_length = 20, .workgroup_size = 32});
+    file().store("smoke",
+                 {.slots = 2000, .run_length = 20, .workgroup_size = 32, .stages = STAGES_FUSED});
     EXPECT_EQ(file().find("fog"), tuning_);
     EXPECT_EQ(file().find("glass"), std::nullopt);
     EXPECT_EQ(file("another device").find("fog"), std::nullopt);
@@ -41,14 +43,14 @@ TEST_F(TuningFileTest, DamageCountsAsNothing) {
     const std::string start = R"({"a device, its driver": {"fog": {"run_length": 20, "slots": )";
     for (const std::string& text :
          {std::string("{"), std::string("[1]"), std::string(R"({"a device, its driver": 7})"),
-          start + "1}}}", start + R"("many", "workgroup_size": 32}}})",
-          start + R"(4000000000, "workgroup_size": 32}}})"}) {
+          start + "1}}}", start + R"("many", "stages": 2, "workgroup_size": 32}}})",
+          start + R"(4000000000, "stages": 2, "workgroup_size": 32}}})"}) {
         write(text);
         EXPECT_EQ(file().find("fog"), std::nullopt) << text;
         file().store("fog", tuning_);
         EXPECT_EQ(file().find("fog"), tuning_) << text;
     }
-    write(start + R"(1000, "workgroup_size": 32}}})"); // the control
+    write(start + R"(1000, "stages": 2, "workgroup_size": 32}}})"); // the control
     EXPECT_EQ(file().find("fog"), tuning_);
 }
 
@@ -63,20 +65,39 @@ TEST_F(TuningFileTest, KindsOfScenesAreTheirEffects) {
 class CalibrationTest : public DeviceTest {};
 
 TEST_F(CalibrationTest, ChangesNoImageAndNothingThatIsFixed) {
-    const Tuning found = calibrate(context(), plain_scene(), {.run_length = 16});
+    int questions = 100;
+    const Tuning found =
+        calibrate(context(), plain_scene(), {.run_length = 16}, [&] { return --questions > 0; });
+    EXPECT_LE(questions, 0); // the trials took place
     EXPECT_EQ(found.run_length, 16);
     for (const Scene& scene : {plain_scene(), busy_scene()}) {
         Renderer renderer(context(), scene, {.slots = 512, .run_length = 16});
         renderer.render(0, 8);
         const auto before = renderer.read_sums();
-        renderer.retune({.slots = 3 * found.slots, .run_length = 8, .workgroup_size = 16});
-        EXPECT_EQ(renderer.wavefront().tuning().run_length, 8);
-        renderer.render(0, 8);
-        EXPECT_EQ(renderer.read_sums(), before);
+        for (const std::uint32_t stages : {STAGES_FUSED, STAGES_APART}) {
+            renderer.retune({.slots = 3 * found.slots,
+                             .run_length = 8,
+                             .workgroup_size = 16,
+                             .stages = stages});
+            EXPECT_EQ(renderer.wavefront().tuning().run_length, 8);
+            renderer.render(0, 8);
+            EXPECT_EQ(renderer.read_sums(), before);
+        }
         renderer.set_seed(77); // the control
         renderer.render(0, 8);
         EXPECT_NE(renderer.read_sums(), before);
     }
+}
+
+TEST_F(CalibrationTest, EndsWhenToldWithWhatIsSetAndChosen) {
+    const Tuning fixed{.slots = 300, .stages = STAGES_FUSED};
+    const Renderer renderer(context(), busy_scene(), fixed);
+    EXPECT_EQ(renderer.wavefront().tuning().slots, 300);
+    for (const int answers : {0, 3})
+        EXPECT_EQ(calibrate(context(), busy_scene(), fixed,
+                            [left = answers]() mutable { return left-- > 0; }),
+                  renderer.wavefront().tuning())
+            << answers;
 }
 
 } // namespace
