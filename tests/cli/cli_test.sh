@@ -92,10 +92,13 @@ same_seed() {
   ! idiff -q -fail 0 a.exr c.exr >out 2>err || fail "other seed, same picture" # control
 }
 
-interrupt() {
-  "$program" render "$scenes/fog-room.pbrt" --size 64x64 --spp 1000000 -o a.exr >out 2>err &
+# interrupt_at WORD ...: Ctrl-C once the program has said the word, and it ends with the status for that.
+interrupt_at() {
+  word=$1
+  shift
+  "$program" "$@" >out 2>err &
   process=$!
-  until grep -q spp err; do # its progress line: it is under way
+  until grep -q "$word" err; do
     kill -0 $process || fail "ended by itself"
     sleep 0.2
   done
@@ -103,7 +106,27 @@ interrupt() {
   got=0
   wait $process || got=$?
   [ $got = 130 ] || fail "status $got, not 130"
+}
+
+interrupt() {
+  interrupt_at spp render "$scenes/fog-room.pbrt" --size 64x64 --spp 1000000 -o a.exr # spp: of its progress line
   leaves_only a.exr
+}
+
+calibrate() {
+  XDG_CACHE_HOME=$PWD/cache
+  export XDG_CACHE_HOME
+  interrupt_at calibrating render "$scenes/fog-room.pbrt" --size 64x64 --spp 1000000 --calibrate -o a.exr
+  says fastest
+  exists a.exr
+  # What was found is kept, and later renders of such scenes use it.
+  sed -i 's/"slots": [0-9]*/"slots": 777/' cache/tyndall/tunings.json
+  expect 0 render "$scenes/fog-room.pbrt" $small --spp 1 -o a.exr --stats a.json
+  grep -q '"slots": 777' a.json || fail "does not use what was found"
+  expect 0 render "$scenes/slab.pbrt" $small --spp 1 -o a.exr --stats a.json
+  ! grep -q '"slots": 777' a.json || fail "uses what was found for another kind of scene" # control
+  expect 2 render "$scenes/slab.pbrt" --calibrate --device reference
+  says --calibrate
 }
 
 time_limit() {
