@@ -36,7 +36,7 @@ class Engine {
     virtual std::uint32_t validation_messages() const { return 0; }
 };
 
-/// What --calibrate takes, about.
+/// After this long --calibrate tries nothing new.
 constexpr std::chrono::seconds kCalibrationTime{30};
 
 /// The engine that the options ask for. The scene must outlive it.
