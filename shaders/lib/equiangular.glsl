@@ -23,7 +23,8 @@ float arctangent(float x) {
 
 /// The angle of (x, y) from the x axis, for y > 0.
 float angle_of(float x, float y) {
-    return x > 0.0 ? arctangent(y / x) : PI - arctangent(y / -x);
+    const float acute = arctangent(y / abs(x));
+    return x < 0.0 ? PI - acute : acute;
 }
 
 /// The part [t0, t1] of a line in steps: of equal length, or of equal angle at a point that is

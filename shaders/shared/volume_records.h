@@ -21,7 +21,6 @@ struct BrickTableRecord {
     uint pad0;
 };
 TYNDALL_CONSTANT uint BRICK_TABLE_TEXELS = 2u;
-TYNDALL_CONSTANT uint BRICK_EDGE = 8u;
 
 /// A medium on voxels. Grids are given as the texel of their BrickTableRecord, or NONE.
 struct GridRecord {

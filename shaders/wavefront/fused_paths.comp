@@ -27,23 +27,32 @@ bool is_met(uint queue) {
     return (surface_queues >> queue & 1u) != 0u;
 }
 
+/// Steps through cells before those of this stage: each stage has its own count.
+uint steps_before = 0u;
+void begin_walks() {
+    steps_before += steps_walked;
+    steps_walked = 0u;
+}
+
 void main() {
     const uint slot = gl_GlobalInvocationID.x;
     if (slot >= push.slot_count) return;
     load_slot(slot);
-    for (uint turn = 0u; turn < push.run_length; ++turn) {
-        steps_walked = 0u;
+    for (uint turn = 0u; turn < push.run_length && steps_before < STEPS_MAX; ++turn) {
         trace_segment();
         if (has_emitters != 0u) shade_emitter();
+        begin_walks();
         if (has_equiangular != 0u) shade_segment();
+        begin_walks();
         if ((densities & DENSITY_BITS_TRACKED) != 0u) track_medium();
-        if (has_scattering != 0u) shade_volume();
+        if (has_collisions) shade_volume();
         if (is_met(QUEUE_SURFACE)) shade_surface();
         if (is_met(QUEUE_DIELECTRIC)) shade_dielectric();
         if (is_met(QUEUE_ROUGH_DIELECTRIC)) shade_rough_dielectric();
         if (is_met(QUEUE_CONDUCTOR)) shade_conductor();
         if (is_met(QUEUE_ROUGH_CONDUCTOR)) shade_rough_conductor();
         if (is_met(QUEUE_INTERFACE)) cross_interface();
+        begin_walks();
         if (lights != 0u) trace_shadow();
         next_sample();
     }

@@ -30,8 +30,14 @@ uint dequeue(uint queue) {
 // Between dispatches it lies where the wavefront has it, so that the renderer can do the rest.
 #define EACH_GROUP(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12)
 void load_slot(uint slot) {
-#define LOAD(group) path_state[group] = imageLoad(path_texels, int(group * push.slot_count + slot));
-    EACH_GROUP(LOAD)
+#define LOAD_WORDS(group) path_state[group] = path_words[group * push.slot_count + slot];
+#define LOAD_TEXELS(group)                                                                         \
+    path_state[group] = imageLoad(path_texels, int(group * push.slot_count + slot));
+    if (in_storage(BINDING_PATHS)) {
+        EACH_GROUP(LOAD_WORDS)
+    } else {
+        EACH_GROUP(LOAD_TEXELS)
+    }
 }
 void store_slot(uint slot) {
 #define STORE(group) path_words[group * push.slot_count + slot] = path_state[group];

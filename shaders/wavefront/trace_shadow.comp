@@ -26,5 +26,6 @@ void main() {
     store_radiance(slot, p);
     log_light(p, floats(a), floats(b), a.w, added);
     if (densities != 0u) report_majorant_ratio(worst_ratio);
-    if (densities != 0u || has_interfaces != 0u) report_mishaps(p.xy, p.path_sample, floats(c));
+    if (densities != 0u || has_interfaces != 0u)
+        report_mishaps(p.xy, p.path_sample, colour(floats(c)));
 }

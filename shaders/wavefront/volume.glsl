@@ -278,7 +278,7 @@ vec3 track_transmittance(Medium medium, vec3 origin, vec3 direction, float t_sur
         }
         const bool pauses = !collides && t < f.t_end; // in the middle of a flight
         step += pauses ? 0u : 1u;
-        if (goes_on && steps_walked > STEPS_MAX) {
+        if (goes_on && t < f.t_end && steps_walked > STEPS_MAX) {
             note_mishap(HEALTH_EVENT_LIMIT, true);
             result = vec3(0);
         }

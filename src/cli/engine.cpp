@@ -25,17 +25,19 @@ json effects_json(const Effects& effects) {
     return list;
 }
 
-/// The tuning of the options, and what they leave open by a calibration: one that is made now, or
-/// before.
+/// The tuning of the options, and what they leave open by a calibration: one that is made now (and
+/// kept if it was all left open), or before.
 Tuning find_tuning(const gpu::Context& context, const Scene& scene, const DeviceOptions& options) {
     const std::string key = tuning_key(compute_effects(scene).features);
     const TuningFile file(gpu::default_cache_folder(), context.info());
     if (options.calibrate) {
         const auto start = std::chrono::steady_clock::now();
-        file.store(key, calibrate(context, scene, options.tuning, [&] {
-                       return !was_interrupted() &&
-                              std::chrono::steady_clock::now() - start < kCalibrationTime;
-                   }));
+        const Tuning best = calibrate(context, scene, options.tuning, [&] {
+            return !was_interrupted() &&
+                   std::chrono::steady_clock::now() - start < kCalibrationTime;
+        });
+        if (options.tuning == Tuning{}) file.store(key, best);
+        return best;
     }
     const Tuning found = file.find(key).value_or(Tuning{});
     Tuning tuning = options.tuning;

@@ -9,9 +9,10 @@ namespace tyndall::cli {
 namespace {
 
 /// The picture with at most so many scattering events; none if it was interrupted.
-std::optional<Image> render_up_to(int depth, Scene scene, const DeviceOptions& options,
+std::optional<Image> render_up_to(int depth, Scene scene, DeviceOptions options,
                                   std::uint32_t samples,
                                   const std::function<bool()>& is_interrupted) {
+    options.calibrate = false; // was done for the whole picture
     scene.integrator.max_depth = std::min(depth, scene.integrator.max_depth);
     const std::unique_ptr<Engine> engine = make_engine(scene, options);
     engine->render(0, samples, [&](const Progress&) { return !is_interrupted(); });

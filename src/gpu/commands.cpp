@@ -32,8 +32,8 @@ std::vector<double> Timestamps::intervals() const {
                               ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) return seconds; // not all were written
     for (std::uint32_t i = 0; i + 1 < count_; ++i)
-        seconds[i] =
-            static_cast<double>(ticks[i + 1] - ticks[i]) * context_->timestamp_period() * 1e-9;
+        seconds[i] = static_cast<double>((ticks[i + 1] - ticks[i]) & context_->timestamp_mask()) *
+                     context_->timestamp_period() * 1e-9;
     return seconds;
 }
 

@@ -303,8 +303,10 @@ void Context::create_device(const ContextOptions& options) {
     std::uint32_t family_count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(family_count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &family_count, families.data());
-    if (families[queue_family_].timestampValidBits > 0)
+    if (const std::uint32_t bits = families[queue_family_].timestampValidBits; bits > 0) {
         timestamp_period_ = static_cast<double>(limits_.timestampPeriod);
+        timestamp_mask_ = ~std::uint64_t{0} >> (64 - bits);
+    }
 
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

@@ -56,6 +56,8 @@ class Context {
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
     double timestamp_period() const { return timestamp_period_; }
+    /// Bits that a timestamp has; it wraps.
+    std::uint64_t timestamp_mask() const { return timestamp_mask_; }
     /// Messages of the validation layer so far (warnings and errors).
     std::uint32_t validation_messages() const { return validation_messages_; }
 
@@ -79,6 +81,7 @@ class Context {
     DeviceInfo info_;
     VkPhysicalDeviceLimits limits_{};
     double timestamp_period_ = 0;
+    std::uint64_t timestamp_mask_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::atomic<std::uint32_t> validation_messages_ = 0;
 };

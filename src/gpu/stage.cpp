@@ -129,7 +129,6 @@ Stage::Stage(const Context& context, const Descriptors& descriptors, std::string
     : name_(std::move(name)), workgroup_size_(features.workgroup_size) {
     const VkDevice device = context.device();
     const std::vector<std::uint32_t> code = specialize(spirv, features, name_);
-    instructions_ = count_instructions(code);
     const VkShaderModuleCreateInfo create_module{.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                                  .codeSize = code.size() * sizeof(code[0]),

@@ -56,13 +56,10 @@ class Stage {
     const std::string& name() const { return name_; }
     VkPipeline pipeline() const { return pipeline_.get(); }
     std::uint32_t workgroup_size() const { return workgroup_size_; }
-    /// Of SPIR-V, as the driver got them.
-    std::size_t instructions() const { return instructions_; }
 
   private:
     std::string name_;
     std::uint32_t workgroup_size_;
-    std::size_t instructions_ = 0;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
 };
 

@@ -32,7 +32,7 @@ struct Knob {
 };
 constexpr Knob kStages{"stages", &Tuning::stages, STAGES_FUSED, STAGES_APART};
 constexpr std::array<Knob, 3> kSizes{{{"slots", &Tuning::slots, 256, 1u << 22},
-                                      {"run_length", &Tuning::run_length, 8, 4096},
+                                      {"run_length", &Tuning::run_length, 8, 1024},
                                       {"workgroup_size", &Tuning::workgroup_size, 16, 1024}}};
 constexpr std::array<Knob, 4> kKnobs{{kStages, kSizes[0], kSizes[1], kSizes[2]}};
 
@@ -182,8 +182,9 @@ void TuningFile::store(const std::string& key, const Tuning& tuning) const {
     if (file_.empty()) return;
     json all = read(file_);
     if (!all[device_].is_object()) all[device_] = json::object();
+    json& entry = all[device_][key] = json::object();
     for (const Knob& knob : kKnobs)
-        all[device_][key][knob.name] = tuning.*knob.value;
+        entry[knob.name] = tuning.*knob.value;
     try {
         std::filesystem::create_directories(file_.parent_path());
         AtomicFile out(file_);

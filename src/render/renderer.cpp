@@ -112,6 +112,7 @@ void Renderer::land(Flight& flight) {
     Control control;
     std::memcpy(&control, flight.control.mapped(), sizeof(control));
     take_in(control);
+    stage_times_.take_in(control);
     stage_times_.add(flight.clock.intervals(), flight.rounds);
 }
 
@@ -122,7 +123,6 @@ void Renderer::take_in(const Control& control) {
            batches_.first_piece(folded_batches_ + 1) <= folded_pieces_)
         ++folded_batches_;
     health_.take_in(control);
-    stage_times_.take_in(control);
     epoch_share_ = control.next_ticket / double(tables_.push.pixel_count);
     samples_done_ = batches_.samples_before_piece(folded_pieces_);
     const std::uint32_t window = wavefront_.window(), pending = folded_pieces_ - epoch_piece_;

@@ -6,8 +6,8 @@
 
 namespace tyndall {
 
-/// Traces the sample of the pixel (x, y) of the picture, by the kernels that render it. Keeps
-/// pointers into the scene.
+/// Traces the sample of the pixel (x, y) of the picture, by the kernels that render it, one for
+/// each event. Keeps pointers into the scene.
 /// @param capacity  Events that are kept; the rest are only counted.
 /// @throws Error    if the device fails.
 Replay replay_path(const gpu::Context& context, const Scene& scene, int x, int y,

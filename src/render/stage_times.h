@@ -30,7 +30,7 @@ class StageTimes {
     }
     /// Takes in a submission of so many rounds, of which one took so long by stage.
     void add(const std::vector<double>& seconds, std::uint32_t rounds);
-    /// Takes in the control block, whose counters wrap at 2^32.
+    /// Takes in the control block of a submission, whose counters wrap at 2^32.
     void take_in(const shared::Control& control);
 
     const std::vector<StageTime>& list() const { return list_; }

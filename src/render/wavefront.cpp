@@ -22,6 +22,10 @@ std::uint32_t piece_window(std::uint32_t pixels) {
     return std::clamp<std::uint32_t>(std::bit_floor(wanted_items / pixels), 2, PIECE_WINDOW_MAX);
 }
 
+bool has_queues(const Features& features, const Tuning& tuning) {
+    return features.geometry == GEOMETRY_BVH && tuning.stages == STAGES_APART;
+}
+
 Tuning choose_tuning(const gpu::Context& context, const shared::Features& features, Tuning tuning) {
     const bool is_cpu = context.info().type == "cpu";
     const bool has_hierarchy = features.geometry == GEOMETRY_BVH;
@@ -31,8 +35,13 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     const bool can_fuse = has_hierarchy && features.march == MARCH_NONE &&
                           !context.info().driver.starts_with("SwiftShader");
     if (tuning.stages == 0 || !can_fuse) tuning.stages = STAGES_APART;
-    const bool has_queues = has_hierarchy && tuning.stages == STAGES_APART;
-    if (tuning.slots == 0) tuning.slots = is_cpu ? (has_queues ? 16384 : 4096) : 1u << 18;
+    if (tuning.slots == 0)
+        tuning.slots = is_cpu ? (has_queues(features, tuning) ? 16384 : 4096) : 1u << 18;
+    // Lavapipe breaks off loops in silence (wavefront/volume.glsl), be they inside of runs: of a
+    // fused kernel, whose walks are all in one, runs must be short.
+    if (is_cpu)
+        tuning.run_length =
+            std::min(tuning.run_length, tuning.stages == STAGES_FUSED ? 16u : 1024u);
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
     // The state of paths is written as storage (shared/bindings.h).
@@ -83,11 +92,11 @@ void Wavefront::allocate_paths() {
     push_.slot_count = tuning_.slots;
     push_.run_length = tuning_.run_length;
     const std::uint64_t slots = tuning_.slots;
-    const bool has_hierarchy = features_.geometry == GEOMETRY_BVH;
     const std::uint32_t texels =
         tuning_.stages == STAGES_FUSED ? PATH_GROUPS : path_texels(features_);
     paths_ = {*context_, "paths", slots * texels * 16, {.texels = true}};
-    queues_ = {*context_, "queues", has_hierarchy ? slots * QUEUE_COUNT * 4 : 16, {}};
+    const bool queues = has_queues(features_, tuning_);
+    queues_ = {*context_, "queues", queues ? slots * QUEUE_COUNT * 4 : 16, {}};
     descriptors_.emplace(
         *context_,
         gpu::Bindings{{&scene_, &paths_, &pieces_, &film_, &voxels_}, &control_, &queues_, &log_},
@@ -101,6 +110,7 @@ void Wavefront::retune(const Tuning& tuning) {
     const shared::Features before = features_;
     const std::uint32_t stages_before = tuning_.stages;
     tuning_ = choose_tuning(*context_, features_, tuning);
+    tuning_.log_capacity = features_.log_capacity; // of a log that is kept
     allocate_paths();
     if (features_ != before || tuning_.stages != stages_before) build_stages();
 }

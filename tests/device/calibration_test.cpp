@@ -44,7 +44,8 @@ TEST_F(TuningFileTest, DamageCountsAsNothing) {
     for (const std::string& text :
          {std::string("{"), std::string("[1]"), std::string(R"({"a device, its driver": 7})"),
           start + "1}}}", start + R"("many", "stages": 2, "workgroup_size": 32}}})",
-          start + R"(4000000000, "stages": 2, "workgroup_size": 32}}})"}) {
+          start + R"(4000000000, "stages": 2, "workgroup_size": 32}}})",
+          std::string(R"({"a device, its driver": {"fog": 7}})")}) {
         write(text);
         EXPECT_EQ(file().find("fog"), std::nullopt) << text;
         file().store("fog", tuning_);
