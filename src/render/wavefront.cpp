@@ -41,7 +41,7 @@ Tuning choose_tuning(const gpu::Context& context, const shared::Features& featur
     // fused kernel, whose walks are all in one, runs must be short.
     if (is_cpu)
         tuning.run_length =
-            std::min(tuning.run_length, tuning.stages == STAGES_FUSED ? 16u : 1024u);
+            std::min(tuning.run_length, tuning.stages == STAGES_FUSED ? 32u : 1024u);
     tuning.workgroup_size =
         std::min(tuning.workgroup_size, context.limits().maxComputeWorkGroupInvocations);
     // The state of paths is written as storage (shared/bindings.h).
