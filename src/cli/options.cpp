@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 namespace tyndall::cli {
@@ -16,6 +17,16 @@ void add_picture_options(CLI::App& app, SceneOptions& o) {
     app.add_option("--maxdepth", o.max_depth, "Most scattering events of a path")
         ->check(CLI::NonNegativeNumber);
 }
+
+/// CLI::PositiveNumber lets NaN pass.
+const CLI::Validator finite_positive(
+    [](const std::string& text) {
+        double value = 0;
+        const bool is_good =
+            CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+        return is_good ? std::string() : text + " is not a positive number";
+    },
+    "POSITIVE");
 
 void add_scene_options(CLI::App& app, SceneOptions& o) {
     add_picture_options(app, o);
@@ -56,14 +67,13 @@ void add_render(CLI::App& app, RenderOptions& o, int& status) {
     command->add_option("--aov", o.aovs, "More layers in .exr outputs: orders")
         ->delimiter(',')
         ->check(CLI::IsMember({"orders"}));
-    command->add_option("--time", o.time, "End after this many seconds")
-        ->check(CLI::PositiveNumber);
+    command->add_option("--time", o.time, "End after this many seconds")->check(finite_positive);
     command->add_option("--target-error", o.target_error,
                         "End when the image's relative error is surely below: 0.005 or 0.5%");
     command
         ->add_option("--write-interval", o.write_interval,
                      "Write the image so far every so many seconds")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     command->add_flag("--calibrate", o.device.calibrate,
                       "First try, for seconds, how the device is fastest with such scenes; later "
                       "renders use what was found");
@@ -102,7 +112,7 @@ void add_study(CLI::App& app, StudyOptions& o, int& status) {
                      "Technique to measure, * for any characters (repeatable; default: all)")
         ->allow_extra_args(false);
     command->add_option("--budget", o.budget, "Seconds for everything")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_positive)
         ->capture_default_str();
     command->add_option("--reference", o.reference,
                         "Image to measure errors from (default: one is made)");

@@ -13,6 +13,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -250,9 +251,13 @@ void Job::choose_outputs() {
     for (const std::string& output : outputs_)
         check_image_extension(output);
     // Now, not after hours: whether they can be written at all.
-    for (const std::string& output : outputs_)
-        AtomicFile probe(output);
-    if (!options_.stats.empty()) AtomicFile probe(options_.stats);
+    // A pipe's reader would take a probe for all of it.
+    std::vector<std::string> files = outputs_;
+    if (!options_.stats.empty()) files.push_back(options_.stats);
+    for (const std::string& file : files)
+        if (!std::filesystem::is_fifo(file)) AtomicFile probe(file);
+    if (std::count(outputs_.begin(), outputs_.end(), options_.stats) > 0)
+        throw Error(ExitStatus::bad_input, options_.stats + ": both an output and --stats");
     const bool has_exr = std::any_of(outputs_.begin(), outputs_.end(),
                                      [](const auto& output) { return output.ends_with(".exr"); });
     if (!options_.aovs.empty() && !has_exr)
@@ -269,7 +274,9 @@ int Job::run() {
     watch_interrupts();
     if (options_.device.calibrate && !options_.quiet)
         std::fprintf(stderr, "calibrating for about %d seconds\n", int(kCalibrationTime.count()));
+    const Clock::time_point before_engine = Clock::now();
     engine_ = make_engine(scene_, options_.device);
+    if (options_.device.calibrate) start_ += Clock::now() - before_engine; // no part of --time
     if (!options_.quiet)
         std::fprintf(stderr, "%s: %d x %d on %s\n", options_.scene.scene.c_str(),
                      scene_.film.bounds.width(), scene_.film.bounds.height(),

@@ -65,6 +65,16 @@ outputs() {
   expect 1 render "$scenes/slab.pbrt" $small --spp 1000000000 -o b.exr -o no/such/folder/a.exr # at once
   says no/such/folder
   leaves_only a.exr a.json a.png
+  expect 2 render "$scenes/slab.pbrt" $small --spp 4 -o a.exr --stats a.exr
+  says a.exr
+  # A pipe's reader gets all of the picture.
+  mkfifo pipe.exr
+  cat pipe.exr >read.exr &
+  expect 0 render "$scenes/slab.pbrt" $small --spp 2 -o pipe.exr
+  wait $!
+  oiiotool --info read.exr >out
+  says 24
+  rm pipe.exr read.exr
   # A link stays one.
   ln -s a.exr latest.exr
   expect 0 render "$scenes/slab.pbrt" $small --spp 2 -o latest.exr
@@ -130,6 +140,7 @@ calibrate() {
 }
 
 time_limit() {
+  for bad in nan inf 0 -1; do expect 2 render "$scenes/slab.pbrt" $small -o a.exr --time $bad; done
   expect 0 render "$scenes/slab.pbrt" --size 32x32 --spp 100000000 --time 2 --write-interval 0.5 -o a.exr --stats a.json
   says spp
   grep -q '"stopped_by": "time"' a.json || fail "not by time"
