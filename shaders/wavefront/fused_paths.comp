@@ -27,7 +27,8 @@ bool is_met(uint queue) {
     return (surface_queues >> queue & 1u) != 0u;
 }
 
-/// Steps through cells before those of this stage: each stage has its own count.
+/// Steps through cells before those of this stage: each has its own count. Together they end a run,
+/// for a driver may break off long loops (volume.glsl).
 uint steps_before = 0u;
 void begin_walks() {
     steps_before += steps_walked;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace tyndall::cli {
 namespace {
@@ -21,9 +22,8 @@ void add_picture_options(CLI::App& app, SceneOptions& o) {
 /// CLI::PositiveNumber lets NaN pass.
 const CLI::Validator finite_positive(
     [](const std::string& text) {
-        double value = 0;
-        const bool is_good =
-            CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+        const double value = std::strtod(text.c_str(), nullptr);
+        const bool is_good = std::isfinite(value) && value > 0;
         return is_good ? std::string() : text + " is not a positive number";
     },
     "POSITIVE");

@@ -15,7 +15,7 @@ namespace tyndall {
 /// What paths go through in a round: one kernel, or one for each thing that may happen to them.
 constexpr std::uint32_t STAGES_FUSED = 1, STAGES_APART = 2;
 
-/// How the work is cut up. None of it changes the image.
+/// How the work is cut up. None of it changes the image. A device may take less than is asked for.
 struct Tuning {
     std::uint32_t slots = 0;          ///< Paths in flight; 0: chosen for device and scene.
     std::uint32_t run_length = 0;     ///< Most events per path and dispatch; 0: chosen.
